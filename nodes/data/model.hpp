@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A trained object model, and the library of all models that scenes are matched against.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nodes/data/features.hpp"
+
+namespace posevote {
+
+class DescriptorIndex;  // nodes/match/descriptor_index.hpp
+
+/// One object, preprocessed and described.
+struct Model {
+  std::string name;
+  int obj_id = 1;
+  Cloud cloud;          ///< downsampled, outward unit normals, in the model's own frame
+  FeatureSet features;  ///< of a uniform subset of the cloud
+  Eigen::Vector3f center = Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
+  float diagonal = 0;                                ///< of that bounding box [m]
+};
+
+/// All models of a run. Matching searches one index that holds every model's descriptors.
+struct ModelLibrary {
+  std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id
+  Scale scale;
+  std::string descriptor;  ///< name of the node that made the descriptors
+  std::shared_ptr<const DescriptorIndex> index;
+};
+
+}  // namespace posevote

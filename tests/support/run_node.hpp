@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs one node by its registered name, without a graph: run_node<Out>("name", {{"param", "1"}}, in...)
+#pragma once
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "graph/registry.hpp"
+
+namespace posevote::test {
+
+/// Returns the node's output. Throws std::invalid_argument for an unknown node or parameter, or a
+/// value that is out of range, and whatever the node throws.
+template <class Out, class... In>
+Out run_node(const std::string& name, const std::map<std::string, std::string>& values, In... in) {
+  const graph::NodeSpec* spec = graph::find_node(name);
+  if (!spec) throw std::invalid_argument("no node is called " + name);
+  const std::shared_ptr<void> params = spec->make_params();
+  for (const auto& [key, text] : values) {
+    bool known = false;
+    for (const graph::ParamSpec& param : spec->params) {
+      if (param.name != key) continue;
+      known = true;
+      if (auto problem = param.set(params.get(), text))
+        throw std::invalid_argument(name + "." + key + ": " + *problem);
+    }
+    if (!known) throw std::invalid_argument(name + " has no parameter " + key);
+  }
+  const std::vector<graph::Value> inputs{graph::StreamTraits<In>::wrap(std::move(in))...};
+  const graph::Value value = spec->call(inputs, graph::FrameContext{}, params.get());
+  return Out(graph::StreamTraits<Out>::unwrap(value));
+}
+
+}  // namespace posevote::test
