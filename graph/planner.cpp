@@ -275,7 +275,7 @@ class Planner {
   }
 
   void check_input(PlannedNode& node, std::size_t i) {
-    if (node.inputs[i] < 0) return;  // already reported
+    if (node.inputs[i] < 0) return void(node.constant = false);  // already reported
     Stream& stream = plan_.streams[std::size_t(node.inputs[i])];
     const Port& port = node.spec->inputs[i];
     node.constant = node.constant && stream.constant;
