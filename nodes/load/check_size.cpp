@@ -10,6 +10,7 @@
 //   check_size: {in: [raw_scan, library], out: scan}
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,10 +35,11 @@ std::string check(const Params& params) {
 double robust_extent(const PointMatrix& points, Eigen::Index axis, double outliers) {
   std::vector<float> values(points.col(axis).begin(), points.col(axis).end());
   const auto out = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
-  const auto low = values.begin() + out, high = values.end() - 1 - out;
-  std::nth_element(values.begin(), low, values.end());
-  std::nth_element(low, high, values.end());
-  return static_cast<double>(*high) - static_cast<double>(*low);
+  const auto nth = [&values](std::ptrdiff_t n) {
+    std::nth_element(values.begin(), values.begin() + n, values.end());
+    return static_cast<double>(values[static_cast<std::size_t>(n)]);
+  };
+  return nth(std::ssize(values) - 1 - out) - nth(out);
 }
 
 double robust_diagonal(const PointMatrix& points, double outliers) {
@@ -49,7 +51,7 @@ double robust_diagonal(const PointMatrix& points, double outliers) {
 
 std::string metres(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g m", value);
+  std::snprintf(text, sizeof text, "%.4g m", value);
   return text;
 }
 

@@ -12,20 +12,22 @@ namespace posevote {
 namespace {
 
 void check_camera(const Camera& camera) {
-  const auto usable = [](double value) { return std::isfinite(value) && value > 0; };
+  constexpr double kMostScale = 1e6;
+  constexpr double kMostPixels = 1e6;  // beyond, points need not be finite any more
+  const auto focal = [](double f) { return f >= 1 && f <= kMostPixels; };
   // A principal point of exactly (0, 0) was not given: it lies near the image's centre.
-  const bool centred =
-      std::isfinite(camera.cx) && std::isfinite(camera.cy) && (camera.cx != 0 || camera.cy != 0);
-  if (!usable(camera.fx) || !usable(camera.fy) || !centred)
+  const bool centred = std::abs(camera.cx) <= kMostPixels && std::abs(camera.cy) <= kMostPixels &&
+                       (camera.cx != 0 || camera.cy != 0);
+  if (!focal(camera.fx) || !focal(camera.fy) || !centred)
     throw std::runtime_error(
         "a depth image needs its camera: fx = " + std::to_string(camera.fx) +
         ", fy = " + std::to_string(camera.fy) + ", cx = " + std::to_string(camera.cx) +
         ", cy = " + std::to_string(camera.cy) +
         " pixels. Set load_scene.fx, fy, cx and cy (as in --set load_scene.fx=572.4), or use a "
         "data set with scene_camera.json");
-  if (!usable(camera.depth_scale))
+  if (!(camera.depth_scale > 0 && camera.depth_scale <= kMostScale))
     throw std::runtime_error("depth_scale is " + std::to_string(camera.depth_scale) +
-                             " mm per unit, expected > 0");
+                             " mm per unit, expected more than 0 and at most 1e6");
 }
 
 /// Depth of every raw value [m], 0 where it is to be left out.
