@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one parallel loop of the project. Isolated: a thread that waits here does not start another
-// frame's work (FACTS: bodies were re-entered up to 6 deep otherwise). Deterministic as long as each
-// index writes only what belongs to it.
+// frame's work (FACTS: bodies were re-entered up to 6 deep otherwise). Deterministic as long as
+// each index writes only what belongs to it.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace posevote::graph {
 
-/// Calls body(begin, end) on disjoint ranges that cover [0, count), each at least `grain` long where
-/// count allows. The first exception is rethrown.
+/// Calls body(begin, end) on disjoint ranges that cover [0, count), each at least `grain` long
+/// where count allows. The first exception is rethrown.
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -4,12 +4,13 @@
 //   const auto registered =
 //       register_node("downsample_voxels", downsample_voxels, "One point per occupied voxel.")
 //           .input("cloud").input("scale").output("cloud")
-//           .param("leaf_size", &Params::leaf_size, "x resolution", "Edge of a voxel.", greater_than(0));
+//           .param("leaf_size", &Params::leaf_size, "x resolution", "Edge of a voxel.",
+//           greater_than(0));
 //
-// The function is pure: `Out f(const In&..., const Params&)`. It may also take a `const FrameContext&`
-// before its Params (writers need the output folder). An Out of void makes a node that only writes.
-// An In or Out of PerObject<T> means all objects of the frame; a plain T fed by a PerObject<T> stream
-// is lifted: the function runs once per object, in parallel.
+// The function is pure: `Out f(const In&..., const Params&)`. It may also take a `const
+// FrameContext&` before its Params (writers need the output folder). An Out of void makes a node
+// that only writes. An In or Out of PerObject<T> means all objects of the frame; a plain T fed by a
+// PerObject<T> stream is lifted: the function runs once per object, in parallel.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +31,10 @@ namespace posevote::graph {
 
 /// What a node may know about its frame beyond its inputs.
 struct FrameContext {
-  std::uint64_t number = 0;        ///< of the frame in this run
-  std::string name;                ///< for file names: unique within a run, made from the scene's path
-  std::filesystem::path out;       ///< output folder of the run; empty where nothing is to be written
-  std::uint64_t seed = 0;          ///< the user's seed
+  std::uint64_t number = 0;   ///< of the frame in this run
+  std::string name;           ///< for file names: unique within a run, made from the scene's path
+  std::filesystem::path out;  ///< output folder of the run; empty where nothing is to be written
+  std::uint64_t seed = 0;     ///< the user's seed
 };
 
 struct Port {
@@ -74,7 +75,8 @@ constexpr bool kIsContext = std::is_same_v<std::decay_t<T>, FrameContext>;
 template <class Params, class R, class... Args, std::size_t... I>
 Value invoke(R (*function)(Args...), const std::vector<Value>& values, const FrameContext& context,
              const void* params, std::index_sequence<I...>) {
-  const auto argument = [&]<std::size_t K>(std::integral_constant<std::size_t, K>) -> decltype(auto) {
+  const auto argument =
+      [&]<std::size_t K>(std::integral_constant<std::size_t, K>) -> decltype(auto) {
     using Arg = std::decay_t<std::tuple_element_t<K, std::tuple<Args...>>>;
     if constexpr (kIsContext<Arg>)
       return (context);

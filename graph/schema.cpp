@@ -82,7 +82,8 @@ std::string Constraint::text() const {
 }
 
 std::optional<std::string> Constraint::violated_by(double value) const {
-  const bool fine = std::isfinite(value) && value <= high && (open_low ? value > low : value >= low);
+  const bool fine =
+      std::isfinite(value) && value <= high && (open_low ? value > low : value >= low);
   if (fine) return std::nullopt;
   return text().empty() ? "must be finite" : "must be " + text();
 }

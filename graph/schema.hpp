@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters as data: name, unit, doc and range are written once, beside the member they set; type and
-// default are read from the member and a default-constructed Params.
+// Parameters as data: name, unit, doc and range are written once, beside the member they set; type
+// and default are read from the member and a default-constructed Params.
 #pragma once
 
 #include <functional>
@@ -45,8 +45,8 @@ struct ParamSpec {
   std::function<std::string(const void* params)> get;
 };
 
-/// Text to value and back, the same on every locale. `parse` is empty-handed where the text is not of
-/// the type: "1.5" is no int, "yes" no bool, "0x10" and "010" no numbers.
+/// Text to value and back, the same on every locale. `parse` is empty-handed where the text is not
+/// of the type: "1.5" is no int, "yes" no bool, "0x10" and "010" no numbers.
 template <class T>
 struct Scalar;
 
@@ -82,8 +82,14 @@ std::string closest_name(const std::string& name, const std::vector<std::string>
 template <class Params, class T>
 ParamSpec make_param(std::string name, T Params::*member, std::string unit, std::string doc,
                      Constraint constraint) {
-  ParamSpec spec{std::move(name), Scalar<T>::kName, std::move(unit), std::move(doc),
-                 Scalar<T>::print(Params{}.*member), constraint, {}, {}};
+  ParamSpec spec{std::move(name),
+                 Scalar<T>::kName,
+                 std::move(unit),
+                 std::move(doc),
+                 Scalar<T>::print(Params{}.*member),
+                 constraint,
+                 {},
+                 {}};
   spec.set = [member, constraint](void* params,
                                   std::string_view text) -> std::optional<std::string> {
     const std::optional<T> value = Scalar<T>::parse(text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What travels along an edge: an immutable value whose type was checked once, when the graph was built.
+// What travels along an edge: an immutable value whose type was checked once, when the graph was
+// built.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,8 @@ using Value = std::shared_ptr<const void>;
 using Slots = std::vector<Value>;
 
 /// One T per object of a frame, in a fixed order. A node written for one T is lifted by the builder
-/// over the slots of a PerObject<T> stream; a node that wants all objects at once takes PerObject<T>.
+/// over the slots of a PerObject<T> stream; a node that wants all objects at once takes
+/// PerObject<T>.
 template <class T>
 struct PerObject {
   std::vector<std::shared_ptr<const T>> slots;

@@ -1,1 +1,149 @@
-int main() { return 0; }
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line. The only place that decides about threads and signals.
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+#include <thread>
+
+#include "graph/problem.hpp"
+#include "tools/commands.hpp"
+
+namespace {
+
+using namespace posevote;
+
+std::atomic<bool> interrupted = false;
+
+/// The first Ctrl-C lets frames in flight end and be written; the second one kills.
+extern "C" void on_interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+/// Runs the command with that many threads; a flow graph belongs to the arena that it is made in.
+template <class Command>
+int with_threads(std::size_t threads, const Command& command) {
+  const std::size_t count =
+      threads > 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          count);
+  oneapi::tbb::task_arena arena(static_cast<int>(count));
+  return arena.execute(command);
+}
+
+void add_set(CLI::App* app, std::vector<std::string>& set) {
+  app->add_option("--set", set, "Override one parameter: node.param=value (repeatable)")
+      ->type_name("NODE.PARAM=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& app, RunCommand& run) {
+  CLI::App* command = app.add_subcommand("run", "Find the models in every scan");
+  command->footer(
+      "Example:\n  posevote run uwa --models models/*.ply --scenes scans/ --out out/today\n\n"
+      "Writes results.csv (BOP format), results.json, failures.json, effective.yaml and "
+      "trace.json\n"
+      "to --out. Exit status: 0 all frames answered, 1 some failed, 2 nothing ran, 130 Ctrl-C.");
+  command->add_option("config", run.config, "A file, or a name from configs/ (demo, uwa, bop ...)")
+      ->required();
+  command->add_option("--models", run.models, "Model files, folders or globs")->type_name("FILE");
+  command->add_option("--scenes", run.scenes, "Scan files, folders or globs")->type_name("FILE");
+  command->add_option("--dataset", run.dataset, "A BOP data set: its models and its images")
+      ->type_name("DIR");
+  command->add_option("--split", run.split, "Split of the data set")->capture_default_str();
+  command->add_option("--out", run.out, "Folder for the results")->capture_default_str();
+  command->add_option("--library", run.library, "A library from `posevote train`, not --models")
+      ->type_name("FILE");
+  add_set(command, run.set);
+  command->add_option("--threads", run.threads, "Threads; 0: all cores")->capture_default_str();
+  command->add_option("--tokens", run.tokens, "Frames in flight; 0: 2 x threads")
+      ->capture_default_str();
+  command->add_option("--seed", run.seed, "Seed of all randomness")->capture_default_str();
+  command
+      ->add_option("--cache", run.cache, "Folder for trained libraries; default ~/.cache/posevote")
+      ->type_name("DIR");
+  command->add_flag("--resume", run.resume, "Go on in an --out that a run has begun");
+  command->add_option("--shard", run.shard, "Only every N-th scan, from the I-th on")
+      ->type_name("I/N");
+  command->add_option("--on-error", run.on_error, "After a frame that fails")
+      ->check(CLI::IsMember({"skip", "stop"}))
+      ->capture_default_str();
+  command->add_flag("--quiet", run.quiet, "Only errors and the last line");
+}
+
+struct Options {
+  RunCommand run;
+  TrainCommand train;
+  std::string config, node, docs_file;
+  std::vector<std::string> set;
+};
+
+void add_train(CLI::App& app, TrainCommand& train) {
+  CLI::App* command = app.add_subcommand("train", "Prepare models once, for `run --library`");
+  command->add_option("config", train.config, "The config that the runs will use")->required();
+  command->add_option("--models", train.models, "Model files, folders or globs")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--out", train.out, "The library's file")->required()->type_name("FILE");
+  add_set(command, train.set);
+}
+
+void add_inspection(CLI::App& app, Options& options) {
+  CLI::App* check = app.add_subcommand("check", "Report every problem of a config at once");
+  CLI::App* graph = app.add_subcommand("graph", "Print the wiring as Graphviz DOT");
+  for (CLI::App* command : {check, graph}) {
+    command->add_option("config", options.config, "A file, or a name from configs/")->required();
+    add_set(command, options.set);
+  }
+  CLI::App* nodes = app.add_subcommand("nodes", "List the node types, or explain one");
+  nodes->add_option("name", options.node, "Node type");
+  CLI::App* docs = app.add_subcommand("docs", "Write the reference of all nodes");
+  docs->add_option("file", options.docs_file, "The file to write")->default_val("nodes/README.md");
+}
+
+int dispatch(const CLI::App& app, const Options& options) {
+  if (app.got_subcommand("run"))
+    return with_threads(options.run.threads, [&] { return run_command(options.run, interrupted); });
+  if (app.got_subcommand("train"))
+    return with_threads(0, [&] { return train_command(options.train); });
+  if (app.got_subcommand("check")) return check_command(options.config, options.set);
+  if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
+  if (app.got_subcommand("nodes")) return nodes_command(options.node);
+  return docs_command(options.docs_file);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("posevote"));
+  spdlog::set_pattern("%^%l%$: %v");
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  CLI::App app("posevote finds known 3D objects in 3D scans.");
+  app.require_subcommand(1);
+  Options options;
+  add_run(app, options.run);
+  add_train(app, options.train);
+  add_inspection(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return dispatch(app, options);
+  } catch (const graph::ConfigError& error) {
+    std::cerr << error.what() << "\n";
+  } catch (const std::invalid_argument& error) {
+    spdlog::error("{}", error.what());
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return 1;
+  }
+  return 2;
+}

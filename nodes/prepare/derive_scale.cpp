@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derives the one length unit of a run, the resolution, from the sizes of all models: descriptors of
-// models and scans agree only where both are sampled alike. Everything else (normal and descriptor
-// radii, feature spacing, ICP distances) is a multiple of it.
+// Derives the one length unit of a run, the resolution, from the sizes of all models: descriptors
+// of models and scans agree only where both are sampled alike. Everything else (normal and
+// descriptor radii, feature spacing, ICP distances) is a multiple of it.
 //
 //   derive_scale: {in: model_meshes, out: scale, fraction: 0.006}
 #include <algorithm>

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph/node_call.hpp"
+
+#include <stdexcept>
+
+#include "graph/parallel.hpp"
+
+namespace posevote::graph {
+namespace {
+
+const Slots& slots_of(const Value& value) { return *static_cast<const Slots*>(value.get()); }
+
+/// How many objects the lifted inputs have; they must agree.
+std::size_t count_objects(const PlannedNode& node, const std::vector<Value>& inputs) {
+  std::size_t count = 0;
+  bool known = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!node.lift[i]) continue;
+    const std::size_t size = slots_of(inputs[i]).size();
+    if (known && size != count)
+      throw std::logic_error("its inputs have different numbers of objects: " +
+                             std::to_string(count) + " and " + std::to_string(size));
+    count = size;
+    known = true;
+  }
+  return count;
+}
+
+Value call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
+                  const FrameContext& context) {
+  const std::size_t count = count_objects(node, inputs);
+  Slots outputs(count);
+  std::vector<std::string> errors(count);
+  parallel_for(count, 1, [&](std::size_t object) {
+    std::vector<Value> arguments = inputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      if (node.lift[i]) arguments[i] = slots_of(inputs[i])[object];
+    try {
+      outputs[object] = node.spec->call(arguments, context, node.params.get());
+    } catch (const std::exception& error) {
+      errors[object] = error.what();
+    }
+  });
+  for (std::size_t object = 0; object < count; ++object)
+    if (!errors[object].empty())
+      throw std::runtime_error("object " + std::to_string(object + 1) + ": " + errors[object]);
+  return std::make_shared<const Slots>(std::move(outputs));
+}
+
+}  // namespace
+
+Value call_node(const PlannedNode& node, const std::vector<Value>& inputs,
+                const FrameContext& context) {
+  if (node.lifted) return call_lifted(node, inputs, context);
+  return node.spec->call(inputs, context, node.params.get());
+}
+
+}  // namespace posevote::graph

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph/problem.hpp"
+
+#include <utility>
+
+namespace posevote::graph {
+namespace {
+
+std::string lines(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
+  return text;
+}
+
+}  // namespace
+
+std::string to_string(const Location& where) {
+  if (where.line == 0) return where.file;
+  return where.file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+}
+
+std::string to_string(const Problem& problem) {
+  const std::string subject = problem.subject.empty() ? "" : problem.subject + ": ";
+  return to_string(problem.where) + ": " + subject + problem.text;
+}
+
+ConfigError::ConfigError(std::vector<Problem> problems)
+    : std::runtime_error(lines(problems)), problems_(std::move(problems)) {}
+
+}  // namespace posevote::graph

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When each node worked on each frame: totals per node, and a file for a Chrome-trace viewer.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace posevote::graph {
+
+/// One call of a node, in microseconds since the run began.
+struct Span {
+  double begin = 0;
+  double end = -1;  ///< before `begin`: the node did not run (an earlier one failed)
+  int thread = 0;
+
+  bool ran() const { return end >= begin; }
+  double seconds() const { return ran() ? (end - begin) * 1e-6 : 0; }
+};
+
+/// Totals of one node over a run. Seconds are wall time of the calls, so over several threads and
+/// frames they add up to more than the run took.
+struct NodeTimes {
+  std::string node;
+  std::uint64_t calls = 0;
+  double total = 0;  ///< [s]
+  double max = 0;    ///< [s]
+
+  double mean() const { return calls == 0 ? 0 : total / static_cast<double>(calls); }
+};
+
+/// Collects the spans of finished frames; used by one thread at a time.
+class Trace {
+ public:
+  /// `nodes`: names in the order of a frame's spans.
+  explicit Trace(const std::vector<std::string>& nodes);
+  /// From now on also writes each span to `file` as a Chrome trace (chrome://tracing, Perfetto).
+  void write_to(const std::filesystem::path& file);
+
+  void add(const std::string& frame, const std::vector<Span>& spans);
+  const std::vector<NodeTimes>& times() const { return times_; }
+  /// Completes the file; false if it could not be written in full.
+  bool close();
+
+ private:
+  std::vector<NodeTimes> times_;
+  std::ofstream file_;
+  bool writing_ = false;
+  bool first_ = true;
+};
+
+/// Aligned table of the totals: calls, total, mean, maximum and share of time, slowest first.
+std::string time_table(const std::vector<NodeTimes>& times);
+
+}  // namespace posevote::graph

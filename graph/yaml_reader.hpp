@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads pipelines and configs from YAML. Whatever is wrong is added to `problems` with its place;
+// what could be read is returned all the same, so that one run reports everything.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/description.hpp"
+
+namespace posevote::graph {
+
+/// Reads `pipelines/NAME.yaml`:
+///
+///   models: train_models            # optional: pipeline whose result is a constant stream
+///   inputs: [scene_file]            # streams that come with each frame
+///   result: detections              # stream that a frame leaves with
+///   nodes:
+///     load_scene: {in: scene_file, out: scan, unit: mm}
+///     downsample_scene: {node: downsample_voxels, in: [scan, scale], out: cloud}
+///     describe_scene: {like: describe_models, in: {cloud: cloud, points: points}, out: features}
+PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>& problems);
+
+/// Reads `configs/NAME.yaml`: `pipeline: NAME` and, per node, the parameters that differ.
+ConfigDescription read_config(const std::string& file, std::vector<Problem>& problems);
+
+/// True where the file describes a pipeline itself (it has `nodes`), not a config.
+bool is_pipeline(const std::string& file);
+
+/// Reads `--set node.param=value`.
+Override read_set(const std::string& argument, std::vector<Problem>& problems);
+
+/// Puts the overrides into the pipeline's nodes; one for a node that is not there is left in the
+/// returned list, so that it can be tried on another pipeline of the same config.
+std::vector<Override> apply_overrides(PipelineDescription& pipeline,
+                                      const std::vector<Override>& overrides);
+
+}  // namespace posevote::graph

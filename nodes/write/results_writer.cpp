@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/write/results_writer.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time\n";
+constexpr const char* kResultsHead = "{\"frames\": [";
+constexpr const char* kFailuresTail = "\n]\n";
+
+std::string results_tail(const std::string& nodes_json) {
+  return "\n],\n\"nodes\": " + nodes_json + "}\n";
+}
+
+/// One line; names that are not UTF-8 (paths may be anything) are mended, not thrown at.
+std::string line(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json to_json(const Detection& found) {
+  std::vector<double> matrix;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix.push_back(found.T_scene_model.matrix()(row, column));
+  return {{"obj_id", found.obj_id},
+          {"model", found.model},
+          {"score", found.score},
+          {"density", found.density},
+          {"runner_up_density", found.runner_up_density},
+          {"inlier_fraction", found.inlier_fraction},
+          {"rmse_m", found.rmse},
+          {"T_scene_model", matrix}};
+}
+
+ordered_json to_json(const FrameReport& frame, const Detections& detections) {
+  ordered_json list = ordered_json::array();
+  for (const Detection& found : detections.items) list.push_back(to_json(found));
+  return {{"frame", frame.number},
+          {"file", frame.file.path.string()},
+          {"scene_id", frame.file.scene_id},
+          {"im_id", frame.file.im_id},
+          {"seconds", frame.seconds},
+          {"stages", frame.stages},
+          {"detections", list}};
+}
+
+/// Lines of a results.json: a killed run's last line may be torn, so each is parsed alone.
+std::vector<ordered_json> read_frames(const fs::path& file) {
+  std::vector<ordered_json> frames;
+  std::ifstream stream(file);
+  for (std::string text; std::getline(stream, text);) {
+    if (!text.starts_with("{\"frame\"")) continue;
+    if (text.ends_with(',')) text.pop_back();
+    ordered_json frame = ordered_json::parse(text, nullptr, false);
+    if (!frame.is_discarded() && frame.contains("im_id")) frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+/// The rows of results.csv that belong to one of the frames: a killed run may have written a
+/// frame's rows, or half a row, without its line in results.json.
+std::string kept_rows(const fs::path& file, const std::vector<ordered_json>& frames) {
+  std::set<std::string> keys;
+  for (const ordered_json& frame : frames)
+    keys.insert(std::to_string(frame.at("scene_id").get<int>()) + "," +
+                std::to_string(frame.at("im_id").get<int>()) + ",");
+  std::string rows;
+  std::ifstream stream(file);
+  for (std::string text; std::getline(stream, text);) {
+    const std::size_t second = text.find(',', text.find(',') + 1);
+    if (second != std::string::npos && keys.contains(text.substr(0, second + 1)))
+      rows += text + "\n";
+  }
+  return rows;
+}
+
+void require(const std::ostream& stream, const fs::path& file) {
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+ResultsWriter::ResultsWriter(const fs::path& out, bool resume) : out_(out) {
+  const fs::path csv = out / "results.csv";
+  const fs::path results = out / "results.json";
+  if (!resume && (fs::exists(csv) || fs::exists(results)))
+    throw std::invalid_argument(out.string() +
+                                ": holds another run; choose another --out or give --resume");
+  fs::create_directories(out);
+  const std::vector<ordered_json> frames = read_frames(results);
+  const std::string rows = kept_rows(csv, frames);
+  // Old results are rewritten beside the old files, so that a crash here loses none of them.
+  const fs::path new_csv = out / "results.csv.new";
+  const fs::path new_results = out / "results.json.new";
+  csv_.open(new_csv, std::ios::binary | std::ios::trunc);
+  csv_ << kHeader << rows << std::flush;
+  require(csv_, new_csv);
+  results_ = std::make_unique<AppendJson>(new_results, kResultsHead, results_tail("[]"));
+  for (const ordered_json& frame : frames) {
+    results_->append(line(frame));
+    answered_.insert(frame.at("frame").get<std::size_t>());
+  }
+  fs::rename(new_csv, csv);
+  results_->rename(results);
+  failures_ = std::make_unique<AppendJson>(out / "failures.json", "[", kFailuresTail);
+}
+
+void ResultsWriter::write(const FrameReport& frame, const Detections& detections,
+                          const std::string& nodes_json) {
+  errno = 0;
+  csv_ << csv_rows(frame, detections) << std::flush;
+  require(csv_, out_ / "results.csv");
+  results_->append(line(to_json(frame, detections)), results_tail(nodes_json));
+}
+
+void ResultsWriter::write(const FailureReport& failure) {
+  failures_->append(line({{"frame", failure.number},
+                          {"file", failure.file.string()},
+                          {"node", failure.node},
+                          {"what", failure.what}}));
+}
+
+std::string csv_rows(const FrameReport& frame, const Detections& detections) {
+  std::string rows;
+  char text[512];
+  for (const Detection& found : detections.items) {
+    const Eigen::Matrix3d r = found.T_scene_model.linear();
+    const Eigen::Vector3d t = found.T_scene_model.translation() * 1e3;
+    std::snprintf(
+        text, sizeof text,
+        "%d,%d,%d,%.6f,%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g,%.6f %.6f %.6f,%.3f\n",
+        frame.file.scene_id, frame.file.im_id, found.obj_id, found.score, r(0, 0), r(0, 1), r(0, 2),
+        r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2), t.x(), t.y(), t.z(), frame.seconds);
+    rows += text;
+  }
+  return rows;
+}
+
+}  // namespace posevote

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes what a run finds, frame by frame: results.csv (BOP), results.json, failures.json.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "nodes/data/detections.hpp"
+#include "nodes/data/files.hpp"
+#include "nodes/write/append_json.hpp"
+
+namespace posevote {
+
+/// A frame as it is reported.
+struct FrameReport {
+  std::size_t number = 0;
+  SceneFile file;
+  double seconds = 0;                    ///< begin of the first stage to end of the last
+  std::map<std::string, double> stages;  ///< seconds per node
+};
+
+struct FailureReport {
+  std::size_t number = 0;
+  std::filesystem::path file;
+  std::string node;
+  std::string what;
+};
+
+class ResultsWriter {
+ public:
+  /// Throws std::invalid_argument where `out` holds another run and `resume` is false, and
+  /// std::runtime_error where it cannot be written.
+  ResultsWriter(const std::filesystem::path& out, bool resume);
+
+  /// Frames that an earlier run answered; they are in the files already. Failed ones are not among
+  /// them: a resumed run tries them again.
+  const std::set<std::size_t>& answered() const { return answered_; }
+
+  /// `nodes_json`: the run's totals per node so far, a JSON list.
+  void write(const FrameReport& frame, const Detections& detections, const std::string& nodes_json);
+  void write(const FailureReport& failure);
+
+ private:
+  std::filesystem::path out_;
+  std::set<std::size_t> answered_;
+  std::ofstream csv_;
+  std::unique_ptr<AppendJson> results_;
+  std::unique_ptr<AppendJson> failures_;
+};
+
+/// "scene_id,im_id,obj_id,score,R,t,time": R row by row, t in mm, time in s; one line a detection.
+std::string csv_rows(const FrameReport& frame, const Detections& detections);
+
+}  // namespace posevote

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that can be wrong with a configuration is reported at once, with its place.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/graph/number_nodes.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+/// The problems of a pipeline, one "file:line:column: subject: text" a line.
+std::vector<std::string> problems_of(const std::string& yaml) {
+  std::vector<graph::Problem> problems;
+  plan_of(yaml, problems);
+  std::vector<std::string> lines;
+  for (const graph::Problem& problem : problems) lines.push_back(to_string(problem));
+  return lines;
+}
+
+/// Exactly one problem, which begins with `begin` and contains `part`.
+void check_one(const std::string& yaml, const std::string& begin, const std::string& part) {
+  const std::vector<std::string> lines = problems_of(yaml);
+  for (const std::string& line : lines) UNSCOPED_INFO(line);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].rfind(begin, 0) == 0);
+  CHECK(lines[0].find(part) != std::string::npos);
+}
+
+const std::string kHead = "inputs: [n]\nresult: r\nnodes:\n";
+
+}  // namespace
+
+TEST_CASE("a sound pipeline has no problems and runs in an order that feeds every node", "[plan]") {
+  const graph::Plan plan = plan_of(kHead +
+                                   "  last: {node: add, in: [b, n], out: r}\n"
+                                   "  first: {node: multiply, in: n, out: b, factor: 3}\n");
+  REQUIRE(plan.nodes.size() == 2);
+  CHECK(plan.nodes[0].name == "first");
+  CHECK(plan.nodes[1].name == "last");
+}
+
+TEST_CASE("one problem at a time", "[plan]") {
+  check_one(kHead + "  multipy: {in: n, out: r}\n",
+            "test.yaml:4:3: multipy: ", "unknown node 'multipy', did you mean 'multiply'?");
+  check_one(kHead + "  multiply: {in: n, out: r, facto: 3}\n",
+            "test.yaml:4:36: multiply.facto: ", "unknown parameter, did you mean 'factor'?");
+  check_one(kHead + "  multiply: {in: n, out: r, factor: three}\n",
+            "test.yaml:4:37: multiply.factor: ", "'three' is not allowed, expected int");
+  check_one(kHead + "  multiply: {in: n, out: r, factor: 101}\n",
+            "test.yaml:4:37: multiply.factor: ", "must be in [-100, 100]");
+  check_one(kHead + "  multiply: {in: n, out: r, factor: 3, factor: 4}\n",
+            "test.yaml:4:40: multiply.factor: ", "given twice, first in line 4");
+  check_one(kHead + "  multiply: {in: m, out: r}\n  swallow: {in: n}\n",
+            "test.yaml:4:18: multiply: ", "nobody produces the stream 'm'");
+  check_one(kHead + "  add: {in: [n], out: r}\n", "test.yaml:4:3: add: ",
+            "input 'b' is not connected, expected a stream of test::Number");
+  check_one(kHead + "  add: {in: [n, n, n], out: r}\n",
+            "test.yaml:4:20: add: ", "has 2 inputs, 'n' is one more");
+  check_one(kHead + "  add: {in: {a: n, c: n}, out: r}\n  swallow: {in: n}\n",
+            "test.yaml:4:23: add: ", "has no input 'c'");
+  check_one(kHead + "  multiply: {in: n, out: r}\n  fail_on: {in: n, out: r}\n",
+            "test.yaml:5:25: r: ", "produced twice, by node multiply and by node fail_on");
+  check_one(kHead + "  to_text: {in: n, out: t}\n  multiply: {in: t, out: r}\n",
+            "test.yaml:5:3: multiply.in: ",
+            "expected test::Number, but node to_text produces 't' as test::Text");
+  check_one(kHead + "  add: {in: [n, s], out: r}\n  multiply: {in: r, out: s}\n",
+            "test.yaml:4:3: add: ", "a cycle through or before add, multiply");
+  check_one(kHead + "  multiply: {in: n, out: r}\n  to_text: {in: n, out: t}\n",
+            "test.yaml:5:3: t: ", "nobody reads this stream");
+  check_one(kHead + "  multiply: {in: n, out: r}\n  swallow: {in: n, out: x}\n",
+            "test.yaml:5:25: swallow: ", "only writes, expected no `out`");
+  check_one(kHead +
+                "  multiply: {in: n, out: r}\n  x: {like: multiply, in: n, out: y, factor: 2}\n"
+                "  swallow: {in: y}\n",
+            "test.yaml:5:46: x.factor: ", "cannot be set, expected multiply.factor");
+  check_one(kHead + "  multiply: {in: n, out: r}\n  multiply: {in: n, out: y}\n",
+            "test.yaml:5:3: multiply: ", "given twice, first in line 4");
+  check_one("inputs: [n]\nresult: r\nnodes: {multiply: {in: n, out: r}}\nresults: x\n",
+            "test.yaml:4:1: results: ", "unknown key, did you mean 'result'?");
+  check_one(kHead + "  multiply: {in: n, out: r}\n bad indent: [\n",
+            "test.yaml:5:", "not valid YAML");
+}
+
+TEST_CASE("eight mistakes give eight located messages", "[plan]") {
+  const std::vector<std::string> lines = problems_of(
+      kHead +
+      "  multiply: {in: n, out: a, factor: 1e9, fctor: 2}\n"                  // wrong type, unknown
+      "  unknown_thing: {in: n, out: b}\n"                                    // unknown node
+      "  to_text: {in: nn, out: t, size: -1, style: fancie, style: plain}\n"  // stream, range,
+                                                                              // choice, twice
+      "  add: {in: [a], out: r}\n");                                          // unconnected
+  for (const std::string& line : lines) UNSCOPED_INFO(line);
+  // the outputs b and t, which nobody reads, are two more
+  CHECK(lines.size() == 10);
+  CHECK(std::all_of(lines.begin(), lines.end(),
+                    [](const std::string& line) { return line.rfind("test.yaml:", 0) == 0; }));
+}
+
+TEST_CASE("an override for a node that is not there is handed back", "[plan]") {
+  graph::PipelineDescription pipeline;
+  pipeline.nodes = {{"multiply", "multiply", "", {}, {}, {}, {}}};
+  const auto left = graph::apply_overrides(
+      pipeline, {{"multiply", "factor", {"5", {}}}, {"other", "x", {"1", {}}}});
+  REQUIRE(left.size() == 1);
+  CHECK(left[0].node == "other");
+  CHECK(pipeline.nodes[0].settings.at("factor").text == "5");
+}
+
+TEST_CASE("--set is split at the first dot and the first equals sign", "[plan]") {
+  std::vector<graph::Problem> problems;
+  const graph::Override change = graph::read_set("to_text.style=a.b=c", problems);
+  CHECK(change.node == "to_text");
+  CHECK(change.key == "style");
+  CHECK(change.setting.text == "a.b=c");
+  CHECK(problems.empty());
+  for (const char* wrong : {"x", "x=1", ".k=1", "x.=1", "=", ""}) graph::read_set(wrong, problems);
+  CHECK(problems.size() == 6);
+}
+
+TEST_CASE("numbers are read the same everywhere, and only numbers", "[schema]") {
+  CHECK(graph::Scalar<double>::parse("1e-3") == 0.001);
+  CHECK(graph::Scalar<double>::parse("0.5") == 0.5);
+  CHECK(graph::Scalar<int>::parse("-7") == -7);
+  for (const char* wrong : {"010", "0x10", "1.5", "", " 1", "1 ", "yes", "99999999999"})
+    CHECK_FALSE(graph::Scalar<int>::parse(wrong));
+  for (const char* wrong : {"1,5", "", "00.5", "one"})
+    CHECK_FALSE(graph::Scalar<double>::parse(wrong));
+  for (const char* wrong : {"yes", "1", "True"}) CHECK_FALSE(graph::Scalar<bool>::parse(wrong));
+  CHECK(graph::greater_than(0).violated_by(0));
+  CHECK_FALSE(graph::at_least(0).violated_by(0));
+  CHECK(graph::anything().violated_by(std::numeric_limits<double>::quiet_NaN()));
+}
+
+TEST_CASE("the wiring as DOT names every node and stream", "[plan]") {
+  const std::string dot = to_dot(plan_of(kHead + "  double: {node: multiply, in: n, out: r}\n"));
+  for (const char* part : {"\"n\" -> \"double\"", "\"double\" -> \"result\"", "(multiply)"})
+    CHECK(dot.find(part) != std::string::npos);
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Order, back-pressure, failures, cancellation, lifting: whatever enters leaves.
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/graph/number_nodes.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+const std::string kHead = "inputs: [n]\nresult: r\nnodes:\n";
+
+/// Runs in an arena of that many threads, however many cores there are.
+template <class Body>
+void with_threads(int threads, const Body& body) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+  oneapi::tbb::task_arena(threads).execute(body);
+}
+
+}  // namespace
+
+TEST_CASE("results leave in frame order, whatever takes longest", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  for (const int threads : {1, 2, 8})
+    with_threads(threads, [&] {
+      std::vector<int> order;
+      const auto summary = run_numbers(
+          plan, 100, {}, [&](const auto& result) { order.push_back(value_of(result.result)); });
+      CHECK(summary.done == 100);
+      REQUIRE(order.size() == 100);
+      for (int i = 0; i < 100; ++i) REQUIRE(order[std::size_t(i)] == i);
+    });
+}
+
+TEST_CASE("tokens bound the frames in flight", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  with_threads(8, [&] {
+    for (const std::size_t tokens : {1, 3}) {
+      peak_bodies = 0;
+      graph::RunOptions options;
+      options.tokens = tokens;
+      run_numbers(plan, 60, options, [](const auto&) {});
+      CHECK(peak_bodies <= static_cast<int>(tokens));
+    }
+  });
+}
+
+TEST_CASE("a diamond joins what belongs to one frame", "[runner]") {
+  const graph::Plan plan = plan_of(kHead +
+                                   "  wait_a_little: {in: n, out: a}\n"
+                                   "  multiply: {in: n, out: b, factor: 10}\n"
+                                   "  add: {in: [a, b], out: r}\n");
+  with_threads(4, [&] {
+    int next = 0;
+    run_numbers(plan, 64, {}, [&](const auto& result) {
+      CHECK(value_of(result.result) == 11 * next);
+      ++next;
+    });
+    CHECK(next == 64);
+  });
+}
+
+TEST_CASE("a node may read one stream twice", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  add: {in: [n, n], out: r}\n");
+  int next = 0;
+  run_numbers(plan, 5, {},
+              [&](const auto& result) { CHECK(value_of(result.result) == 2 * next++); });
+}
+
+TEST_CASE("a failing frame leaves as a named failure and the others go on", "[runner]") {
+  const graph::Plan plan = plan_of(kHead +
+                                   "  fail_on: {in: n, out: a, bad: 3}\n"
+                                   "  multiply: {in: a, out: r}\n"
+                                   "  swallow: {in: r}\n");
+  with_threads(4, [&] {
+    swallowed = 0;
+    std::vector<bool> failed;
+    const auto summary = run_numbers(plan, 9, {}, [&](const auto& result) {
+      failed.push_back(result.failure.has_value());
+      if (!result.failure) return;
+      CHECK(result.failure->node == "fail_on");
+      CHECK(result.failure->what == "met 3");
+      CHECK_FALSE(result.spans[1].ran());
+    });
+    CHECK(failed ==
+          std::vector<bool>{false, false, false, true, false, false, false, false, false});
+    CHECK(summary.done == 8);
+    CHECK(summary.failed == 1);
+    CHECK(swallowed == 8);
+  });
+}
+
+TEST_CASE("what is thrown need not be an exception type", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  fail_on: {in: n, out: r, odd_throw: true}\n");
+  const auto summary = run_numbers(plan, 3, {}, [](const auto& result) {
+    REQUIRE(result.failure);
+    CHECK(result.failure->what == "unknown exception");
+  });
+  CHECK(summary.failed == 3);
+}
+
+TEST_CASE("stop_on_failure reports nothing behind the failed frame, at any thread count",
+          "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  fail_on: {in: n, out: r, bad: 5}\n");
+  for (const int threads : {1, 4})
+    with_threads(threads, [&] {
+      graph::RunOptions options;
+      options.stop_on_failure = true;
+      std::size_t reported = 0;
+      const auto summary = run_numbers(plan, 1000, options, [&](const auto&) { ++reported; });
+      CHECK(reported == 6);
+      CHECK(summary.stopped);
+      CHECK(summary.done == 5);
+      CHECK(summary.failed == 1);
+    });
+}
+
+TEST_CASE("an interrupt lets the frames in flight leave", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  with_threads(4, [&] {
+    std::atomic<bool> interrupted = false;
+    graph::RunOptions options;
+    options.interrupted = &interrupted;
+    options.tokens = 4;
+    std::size_t reported = 0;
+    const auto summary = run_numbers(plan, 100000, options, [&](const auto& result) {
+      CHECK(result.context.number == reported);
+      if (++reported == 10) interrupted = true;
+    });
+    CHECK(summary.stopped);
+    CHECK(reported >= 10);
+    CHECK(reported <= 20);
+    CHECK(summary.done == reported);
+  });
+}
+
+TEST_CASE("what the receiver throws ends the run and comes out", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
+  CHECK_THROWS_WITH(run_numbers(plan, 1000, {},
+                                [](const auto& result) {
+                                  if (result.context.number == 4)
+                                    throw std::runtime_error("disk full");
+                                }),
+                    "disk full");
+}
+
+TEST_CASE("a node written for one object runs over all of them, slots in order", "[runner]") {
+  const graph::Plan plan = plan_of(kHead +
+                                   "  split: {in: n, out: objects}\n"
+                                   "  multiply: {in: objects, out: doubled}\n"
+                                   "  add: {in: [doubled, n], out: added}\n"
+                                   "  sum: {in: added, out: r}\n");
+  int next = 0;
+  run_numbers(plan, 3, {}, [&](const auto& result) {
+    const int n = next++;
+    const int expected = 100 * (2 * n + n) + 10 * (2 * (n + 1) + n) + 2 * (n + 2) + n;
+    CHECK(value_of(result.result) == expected);
+  });
+}
+
+TEST_CASE("the first failing object names itself", "[runner]") {
+  const graph::Plan plan = plan_of(kHead +
+                                   "  split: {in: n, out: objects}\n"
+                                   "  fail_on: {in: objects, out: kept, bad: 4}\n"
+                                   "  sum: {in: kept, out: r}\n");
+  std::vector<std::string> what;
+  run_numbers(plan, 6, {}, [&](const auto& result) {
+    if (result.failure) what.push_back(result.failure->what);
+  });
+  CHECK(what == std::vector<std::string>{"object 3: met 4", "object 2: met 4", "object 1: met 4"});
+}
+
+TEST_CASE("a body that waits in an inner loop is not entered again", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  nested: {in: n, out: r}\n");
+  with_threads(8, [&] {
+    const auto summary = run_numbers(plan, 100, {}, [](const auto& result) {
+      if (result.failure) FAIL_CHECK(result.failure->what);
+    });
+    CHECK(summary.done == 100);
+  });
+}
+
+TEST_CASE("constants are worked out once, before the first frame", "[runner]") {
+  const graph::StreamType type = graph::StreamTraits<Number>::type();
+  const graph::Plan plan = plan_of(kHead +
+                                       "  multiply: {in: c, out: d, factor: 10}\n"
+                                       "  add: {in: [n, d], out: r}\n",
+                                   {{"c", type}});
+  const auto constants = graph::fold_constants(plan, {{"c", number(4)}});
+  std::vector<int> values;
+  run_numbers(
+      plan, 2, {},
+      [&](const auto& result) {
+        values.push_back(value_of(result.result));
+        CHECK_FALSE(result.spans[0].ran());
+      },
+      constants);
+  CHECK(values == std::vector<int>{40, 41});
+  const graph::Plan bad = plan_of(kHead +
+                                      "  fail_on: {in: c, out: d, bad: 4}\n"
+                                      "  add: {in: [n, d], out: r}\n",
+                                  {{"c", type}});
+  CHECK_THROWS_WITH(graph::fold_constants(bad, {{"c", number(4)}}), "fail_on: met 4");
+}
+
+TEST_CASE("no frames, and a second run of one plan", "[runner]") {
+  const graph::Plan plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
+  CHECK(run_numbers(plan, 0, {}, [](const auto&) {}).done == 0);
+  CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
+  CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
+}
+
+TEST_CASE("the trace adds up and is JSON that a viewer opens", "[trace]") {
+  const TemporaryFolder folder;
+  graph::Trace trace({"load", "match"});
+  trace.write_to(folder.path() / "trace.json");
+  trace.add("a", {{0, 2e6, 1}, {2e6, 3e6, 0}});
+  trace.add("b\xff", {{1e6, 2e6, 0}, {}});
+  CHECK(trace.close());
+  CHECK(trace.times()[0].calls == 2);
+  CHECK(trace.times()[0].total == Approx(3));
+  CHECK(trace.times()[0].mean() == Approx(1.5));
+  CHECK(trace.times()[0].max == Approx(2));
+  CHECK(trace.times()[1].calls == 1);
+  std::ifstream file(folder.path() / "trace.json");
+  const auto json = nlohmann::json::parse(file);
+  REQUIRE(json["traceEvents"].size() == 3);
+  CHECK(json["traceEvents"][0]["dur"] == 2e6);
+  CHECK(graph::time_table(trace.times()).find("75.0%") != std::string::npos);
+}

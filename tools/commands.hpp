@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The subcommands of `posevote`. Each returns its exit status: 0 done, 1 some frames failed, 2
+// nothing ran, 130 after Ctrl-C. Problems of the user's making are thrown: graph::ConfigError and
+// std::invalid_argument mean 2.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace posevote {
+
+/// Options of `run`, named as on the command line.
+struct RunCommand {
+  std::string config;
+  std::vector<std::string> models, scenes, set;
+  std::string dataset, split = "test";
+  std::string out = "out";
+  std::string library, cache, shard;
+  std::string on_error = "skip";
+  std::size_t threads = 0, tokens = 0;
+  std::uint64_t seed = 0;
+  bool resume = false, quiet = false;
+};
+int run_command(const RunCommand& command, const std::atomic<bool>& interrupted);
+
+/// Options of `train`.
+struct TrainCommand {
+  std::string config;
+  std::vector<std::string> models, set;
+  std::string out;
+};
+int train_command(const TrainCommand& command);
+
+int check_command(const std::string& config, const std::vector<std::string>& set);
+int nodes_command(const std::string& name);
+int graph_command(const std::string& config, const std::vector<std::string>& set);
+int docs_command(const std::string& file);
+
+/// The text of nodes/README.md: every node type with ports, parameters and an example.
+std::string node_reference();
+
+}  // namespace posevote

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/configuration.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <map>
+
+#include "graph/yaml_reader.hpp"
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+using graph::Override;
+using graph::PipelineDescription;
+using graph::Problem;
+
+/// "uwa" -> the project's configs/uwa.yaml, unless a file of that name is here.
+std::string find_config(const std::string& config) {
+  const fs::path own = fs::path(POSEVOTE_SOURCE_DIR) / "configs" / (config + ".yaml");
+  const bool is_name = config.find('/') == std::string::npos;
+  return is_name && !fs::exists(config) && fs::exists(own) ? own.string() : config;
+}
+
+/// Pipelines stand beside the config, in ../pipelines from there, or in the project.
+std::string find_pipeline(const std::string& name, const std::string& config) {
+  const fs::path folder = fs::path(config).parent_path();
+  const std::string file = name + ".yaml";
+  const fs::path own = fs::path(POSEVOTE_SOURCE_DIR) / "pipelines" / file;
+  for (const fs::path& path : {folder / file, folder / ".." / "pipelines" / file, own})
+    if (fs::exists(path)) return path.lexically_normal().string();
+  return "";
+}
+
+PipelineDescription read_named(const std::string& name, const graph::Location& where,
+                               const std::string& config, std::vector<Problem>& problems) {
+  const std::string file = find_pipeline(name, config);
+  if (!file.empty()) return graph::read_pipeline(file, problems);
+  problems.push_back({where, "",
+                      "no pipeline is called '" + name + "', expected " + name +
+                          ".yaml beside the config or in pipelines/"});
+  return {};
+}
+
+std::vector<std::string> node_names(const PipelineDescription& a, const PipelineDescription& b) {
+  std::vector<std::string> names;
+  for (const PipelineDescription* pipeline : {&a, &b})
+    for (const graph::NodeDescription& node : pipeline->nodes) names.push_back(node.name);
+  return names;
+}
+
+void apply(PipelineDescription& scenes, PipelineDescription& models,
+           const std::vector<Override>& overrides, std::vector<Problem>& problems) {
+  const std::vector<Override> left =
+      graph::apply_overrides(models, graph::apply_overrides(scenes, overrides));
+  if (scenes.nodes.empty()) return;  // the pipeline itself could not be read
+  for (const Override& change : left) {
+    if (change.node.empty()) continue;  // a malformed --set, reported
+    const std::string near = graph::closest_name(change.node, node_names(scenes, models));
+    problems.push_back({change.setting.where, change.node + "." + change.key,
+                        "no such node in the pipeline '" + scenes.name + "'" +
+                            (near.empty() ? "" : ", did you mean '" + near + "'?")});
+  }
+}
+
+graph::StreamType result_type(const graph::Plan& plan) {
+  return plan.result < 0 ? graph::StreamType{} : plan.streams[std::size_t(plan.result)].type;
+}
+
+void emit_parameters(YAML::Emitter& out, const graph::Plan& plan) {
+  for (const auto& [node, values] : graph::effective_parameters(plan)) {
+    if (values.empty()) continue;
+    out << YAML::Key << node << YAML::Value << YAML::BeginMap;
+    for (const auto& [key, value] : values) out << YAML::Key << key << YAML::Value << value;
+    out << YAML::EndMap;
+  }
+}
+
+}  // namespace
+
+Configuration load_configuration(const std::string& config, const std::vector<std::string>& sets,
+                                 const std::vector<Override>& defaults) {
+  std::vector<Problem> problems;
+  const std::string file = find_config(config);
+  Configuration result;
+  result.name = fs::path(file).stem().string();
+  PipelineDescription scenes;
+  std::vector<Override> overrides = defaults;
+  if (graph::is_pipeline(file)) {
+    scenes = graph::read_pipeline(file, problems);
+  } else {
+    const graph::ConfigDescription description = graph::read_config(file, problems);
+    if (!description.pipeline.empty())
+      scenes = read_named(description.pipeline, description.where, file, problems);
+    overrides.insert(overrides.end(), description.overrides.begin(), description.overrides.end());
+  }
+  for (const std::string& set : sets) overrides.push_back(graph::read_set(set, problems));
+
+  PipelineDescription models;
+  if (!scenes.models.empty())
+    models = read_named(scenes.models, scenes.models_where, scenes.where.file, problems);
+  apply(scenes, models, overrides, problems);
+  graph::resolve_likes(models, nullptr, problems);
+  graph::resolve_likes(scenes, &models, problems);
+
+  result.pipeline = scenes.name;
+  std::map<std::string, graph::StreamType> constants;
+  if (!models.nodes.empty()) {
+    result.models = graph::make_plan(models, {}, problems);
+    constants[models.result.stream] = result_type(result.models);
+  }
+  if (!scenes.nodes.empty()) result.scenes = graph::make_plan(scenes, constants, problems);
+  if (!problems.empty()) throw graph::ConfigError(std::move(problems));
+  return result;
+}
+
+std::string effective_yaml(const Configuration& configuration) {
+  YAML::Emitter out;
+  out << YAML::BeginMap << YAML::Key << "pipeline" << YAML::Value << configuration.pipeline;
+  emit_parameters(out, configuration.models);
+  emit_parameters(out, configuration.scenes);
+  out << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+std::string training_parameters(const graph::Plan& models) {
+  std::string text;
+  for (const graph::PlannedNode& node : models.nodes) {
+    text += node.name + "=" + node.spec->name + "(";
+    for (const int input : node.inputs) text += models.streams[std::size_t(input)].name + " ";
+    text += ")\n";
+  }
+  for (const auto& [node, values] : graph::effective_parameters(models))
+    for (const auto& [key, value] : values) text += node + "." + key + "=" + value + "\n";
+  return text;
+}
+
+}  // namespace posevote

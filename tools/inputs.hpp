@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns what the command line names (files, folders, globs, a BOP data set) into scenes and models.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "nodes/data/files.hpp"
+
+namespace posevote {
+
+/// One scan of a batch. `number` counts over the whole batch, shards and resumed runs included.
+struct SceneEntry {
+  std::size_t number = 0;
+  std::string name;  ///< unique within the batch, for the files that writers make
+  SceneFile file;
+};
+
+/// Files, folders (every file in them that a loader knows) and globs, sorted by path; scene_id 0
+/// and im_id from that order. Throws std::invalid_argument naming an argument that matches nothing.
+std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments);
+
+/// The depth images of `DATASET/SPLIT/NNNNNN/depth`, with their cameras from `scene_camera.json`.
+std::vector<SceneEntry> list_bop_scenes(const std::string& dataset, const std::string& split);
+
+/// Model files in ascending order of obj_id: from `obj_NNNNNN` names, else 1.. in the order given.
+/// Throws std::invalid_argument for a missing file or two models of one obj_id.
+ModelFiles list_models(const std::vector<std::string>& arguments);
+
+/// Keeps entries number = I-1, I-1+N ... of "I/N"; empty text keeps all.
+std::vector<SceneEntry> take_shard(std::vector<SceneEntry> scenes, const std::string& shard);
+
+}  // namespace posevote

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands that look and do not run: check, nodes, graph, docs.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+#include "graph/registry.hpp"
+#include "tools/commands.hpp"
+#include "tools/configuration.hpp"
+
+namespace posevote {
+namespace {
+
+using graph::NodeSpec;
+using graph::ParamSpec;
+using graph::Port;
+
+/// "prepare" for nodes/prepare/downsample_voxels.cpp.
+std::string folder_of(const NodeSpec& spec) {
+  return std::filesystem::path(spec.source).parent_path().filename().string();
+}
+
+std::string ports(const NodeSpec& spec) {
+  std::string text;
+  for (const Port& port : spec.inputs)
+    text += (text.empty() ? "" : ", ") + port.name + ": " + port.type.name;
+  text = "(" + text + ")";
+  if (spec.output) text += " -> " + spec.output->name + ": " + spec.output->type.name;
+  return text;
+}
+
+/// A line that can be pasted into a pipeline, with every parameter at its default.
+std::string example(const NodeSpec& spec) {
+  std::string in;
+  for (const Port& port : spec.inputs) in += (in.empty() ? "" : ", ") + port.name;
+  std::string text = spec.name + ": {in: [" + in + "]";
+  if (spec.output) text += ", out: " + spec.output->name;
+  for (const ParamSpec& param : spec.params)
+    text += ", " + param.name + ": " + (param.default_text.empty() ? "''" : param.default_text);
+  return text + "}";
+}
+
+std::string range(const ParamSpec& param) {
+  return param.constraint.text().empty() ? "any" : param.constraint.text();
+}
+
+void print_node(const NodeSpec& spec) {
+  std::cout << spec.name << ' ' << ports(spec) << "\n  " << spec.doc << "\n\n";
+  for (const ParamSpec& param : spec.params)
+    std::cout << "  " << param.name << ": " << param.type << " = "
+              << (param.default_text.empty() ? "''" : param.default_text)
+              << (param.unit.empty() ? "" : " [" + param.unit + "]") << ", " << range(param)
+              << "\n      " << param.doc << "\n";
+  std::cout << (spec.params.empty() ? "" : "\n") << "  " << example(spec) << "\n";
+}
+
+/// The reference's section of one node.
+std::string section(const NodeSpec& spec) {
+  std::string text = "### " + spec.name + "\n\n" + spec.doc + "\n\n`" + ports(spec) + "`\n\n";
+  if (!spec.params.empty())
+    text += "| parameter | type | default | unit | range | |\n|---|---|---|---|---|---|\n";
+  for (const ParamSpec& param : spec.params)
+    text += "| `" + param.name + "` | " + param.type + " | " + param.default_text + " | " +
+            param.unit + " | " + range(param) + " | " + param.doc + " |\n";
+  return text + (spec.params.empty() ? "" : "\n") + "```yaml\n" + example(spec) + "\n```\n\n";
+}
+
+}  // namespace
+
+int check_command(const std::string& config, const std::vector<std::string>& set) {
+  const Configuration configuration = load_configuration(config, set);
+  std::cout << config << ": fine, " << configuration.scenes.nodes.size() << " nodes a scan and "
+            << configuration.models.nodes.size() << " nodes for the models\n";
+  return 0;
+}
+
+int nodes_command(const std::string& name) {
+  if (name.empty()) {
+    for (const NodeSpec* spec : graph::all_nodes())
+      std::printf("%-22s %s\n", spec->name.c_str(), spec->doc.c_str());
+    return 0;
+  }
+  if (const NodeSpec* spec = graph::find_node(name)) return print_node(*spec), 0;
+  std::vector<std::string> known;
+  for (const NodeSpec* spec : graph::all_nodes()) known.push_back(spec->name);
+  const std::string near = graph::closest_name(name, known);
+  throw std::invalid_argument("no node is called '" + name + "'" +
+                              (near.empty() ? "" : ", did you mean '" + near + "'?"));
+}
+
+int graph_command(const std::string& config, const std::vector<std::string>& set) {
+  const Configuration configuration = load_configuration(config, set);
+  if (!configuration.models.nodes.empty()) std::cout << graph::to_dot(configuration.models);
+  std::cout << graph::to_dot(configuration.scenes);
+  return 0;
+}
+
+std::string node_reference() {
+  std::map<std::string, std::string> folders;
+  for (const NodeSpec* spec : graph::all_nodes()) folders[folder_of(*spec)] += section(*spec);
+  std::string text =
+      "# Nodes\n\nMade by `posevote docs` from the registry; do not edit. Lengths in metres; "
+      "\"x resolution\" means\nmultiples of the run's voxel edge (`derive_scale`).\n\n";
+  for (const char* folder : {"load", "prepare", "describe", "match", "vote", "segment", "write"})
+    if (folders.contains(folder)) text += "## " + std::string(folder) + "\n\n" + folders[folder];
+  text.pop_back();
+  return text;
+}
+
+int docs_command(const std::string& file) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << node_reference();
+  stream.close();
+  if (!stream) throw std::invalid_argument(file + ": cannot be written");
+  std::cout << "wrote " << file << "\n";
+  return 0;
+}
+
+}  // namespace posevote

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/library.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "graph/runner.hpp"
+#include "nodes/match/library_file.hpp"
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The parameters, and obj_id and name of each model: bytes alone do not say which object it is.
+std::string parameters_with_names(const Configuration& configuration, const ModelFiles& models) {
+  std::string text = training_parameters(configuration.models);
+  for (const ModelFile& model : models)
+    text += std::to_string(model.obj_id) + " " + model.name + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
+                                          const ModelFiles& models) {
+  graph::Frame frame;
+  frame.inputs = {std::make_shared<const ModelFiles>(models)};
+  const graph::FrameResult result = graph::run_one(configuration.models, {}, std::move(frame));
+  if (result.failure) throw std::runtime_error(result.failure->node + ": " + result.failure->what);
+  return std::static_pointer_cast<const ModelLibrary>(result.result);
+}
+
+std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
+                                                   const ModelFiles& models,
+                                                   const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const ModelFile& model : models) files.push_back(model.path);
+  const std::string key = hash_files(files, parameters_with_names(configuration, models));
+  const fs::path file = folder / (key + ".library");
+  if (fs::exists(file)) {
+    std::string why_not;
+    if (auto library = load_library(file, key, why_not))
+      return std::make_shared<const ModelLibrary>(std::move(*library));
+    spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
+  }
+  auto library = train(configuration, models);
+  try {
+    fs::create_directories(folder);
+    save_library(*library, file, key);
+  } catch (const std::exception& error) {
+    spdlog::warn("the library is not cached: {}", error.what());
+  }
+  return library;
+}
+
+fs::path default_cache() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+    return fs::path(cache) / "posevote";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return fs::path(home) / ".cache" / "posevote";
+  return fs::temp_directory_path() / "posevote-cache";
+}
+
+std::string library_key(const Configuration& configuration) {
+  return hash_files({}, training_parameters(configuration.models));
+}
+
+}  // namespace posevote

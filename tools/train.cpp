@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <stdexcept>
+
+#include "nodes/match/library_file.hpp"
+#include "tools/commands.hpp"
+#include "tools/inputs.hpp"
+#include "tools/library.hpp"
+
+namespace posevote {
+
+int train_command(const TrainCommand& command) {
+  const Configuration configuration = load_configuration(command.config, command.set);
+  if (configuration.models.nodes.empty())
+    throw std::invalid_argument(command.config + ": its pipeline has no `models` to train");
+  const auto library = train(configuration, list_models(command.models));
+  save_library(*library, command.out, library_key(configuration));
+  for (const auto& model : library->models)
+    std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()
+              << " points, " << model->features.points.rows() << " features, diagonal "
+              << model->diagonal << " m\n";
+  std::cout << "resolution " << library->scale.resolution << " m; wrote " << command.out << "\n";
+  return 0;
+}
+
+}  // namespace posevote
