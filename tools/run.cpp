@@ -156,15 +156,12 @@ class Reporter {
   }
 
   void say(const FrameReport& frame, const Detections& detections) const {
-    std::string found;
-    char text[128];
-    for (const Detection& item : detections.items) {
-      std::snprintf(text, sizeof text, " %.2f", item.score);
-      found += (found.empty() ? "" : ", ") + item.model + text;
-    }
-    std::printf("[%zu/%zu] %s: %s (%.2f s)\n", reported_, scenes_.size(),
-                frame.file.path.filename().c_str(), found.empty() ? "nothing" : found.c_str(),
-                frame.seconds);
+    std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, scenes_.size(),
+                frame.file.path.filename().c_str(), detections.items.size(), frame.seconds);
+    for (const Detection& item : detections.items)
+      std::printf("    %-24s score %.2f  density %.0f (next %.0f)  inliers %.0f %%  rms %.2f mm\n",
+                  item.model.c_str(), item.score, item.density, item.runner_up_density,
+                  100 * item.inlier_fraction, 1e3 * item.rmse);
     std::fflush(stdout);
   }
 

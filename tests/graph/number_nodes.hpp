@@ -3,13 +3,12 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "graph/plan.hpp"
 #include "graph/runner.hpp"
 #include "graph/yaml_reader.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace posevote::test {
 
@@ -24,21 +23,6 @@ struct Text {
 extern std::atomic<int> peak_bodies;
 /// Times `swallow` was called.
 extern std::atomic<int> swallowed;
-
-/// A folder that goes away with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Reads and plans a pipeline; what is wrong lands in `problems`.
 graph::Plan plan_of(const std::string& yaml, std::vector<graph::Problem>& problems,

@@ -101,13 +101,6 @@ const auto r9 = graph::register_node("nested", nested, "A loop inside.").input("
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  static std::atomic<int> count = 0;
-  path_ = std::filesystem::temp_directory_path() /
-          ("posevote-test-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
-  std::filesystem::create_directories(path_);
-}
-
 graph::Plan plan_of(const std::string& yaml, std::vector<graph::Problem>& problems,
                     const std::map<std::string, graph::StreamType>& constants) {
   const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs one node by its registered name, without a graph: run_node<Out>("name", {{"param", "1"}}, in...)
+// Runs one node by its registered name, without a graph: run_node<Out>("name", {{"param", "1"}},
+// in...)
 #pragma once
 
 #include <map>

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/inputs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+using namespace posevote;
+using posevote::test::TemporaryFolder;
+
+TEST_CASE("scans are numbered by one sort over files, folders and globs", "[inputs]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"b/2.ply", "b/1.ply", "b/notes.txt", "a.pcd", "c/x.ply", "c/1.ply"})
+    folder.write(name, "");
+  std::filesystem::create_symlink(folder / "nowhere", folder / "b/3.ply");
+  const auto scenes = list_scenes(
+      {(folder / "c/*.ply").string(), (folder / "b").string(), (folder / "a.pcd").string()});
+  REQUIRE(scenes.size() == 6);
+  const std::vector<std::string> names{"a", "000001_1", "2", "3", "000004_1", "x"};
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    CHECK(scenes[i].number == i);
+    CHECK(scenes[i].file.scene_id == 0);
+    CHECK(scenes[i].file.im_id == static_cast<int>(i));
+    CHECK(scenes[i].name == names[i]);
+  }
+}
+
+TEST_CASE("an argument that matches nothing is named", "[inputs]") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(list_scenes({"/nowhere/x.ply"}),
+                    Catch::Contains("/nowhere/x.ply: no such file"));
+  CHECK_THROWS_WITH(list_scenes({folder.path().string()}), Catch::Contains("no ply"));
+  CHECK_THROWS_WITH(list_models({"/nowhere/*.ply"}), Catch::Contains("/nowhere/*.ply"));
+}
+
+TEST_CASE("obj_id comes from the name, else from the order; a clash is an error", "[inputs]") {
+  const TemporaryFolder folder;
+  const std::string named = folder.write("obj_000009.ply", "");
+  const std::string plain = folder.write("chef.ply", "");
+  const std::string clash = folder.write("obj_000001.ply", "");
+  const ModelFiles models = list_models({named, plain});
+  REQUIRE(models.size() == 2);
+  CHECK(models[0].obj_id == 2);
+  CHECK(models[0].name == "chef");
+  CHECK(models[1].obj_id == 9);
+  CHECK_THROWS_WITH(list_models({plain, clash}), Catch::Contains("has obj_id 1, as has"));
+}
+
+TEST_CASE("a BOP split gives images with their cameras", "[inputs]") {
+  const TemporaryFolder folder;
+  folder.write("test/000002/depth/000003.png", "");
+  folder.write("test/000002/depth/000001.png", "");
+  folder.write("test/000002/scene_camera.json",
+               R"({"3": {"cam_K": [500, 0, 320, 0, 510, 240, 0, 0, 1], "depth_scale": 0.1},
+                   "1": {"cam_K": [500, 0, 320, 0, 510, 240, 0, 0, 1]}})");
+  const auto scenes = list_bop_scenes(folder.path().string(), "test");
+  REQUIRE(scenes.size() == 2);
+  CHECK(scenes[1].file.scene_id == 2);
+  CHECK(scenes[1].file.im_id == 3);
+  CHECK(scenes[1].name == "000002_000003");
+  CHECK(scenes[1].file.camera->fy == 510);
+  CHECK(scenes[1].file.camera->cy == 240);
+  CHECK(scenes[1].file.camera->depth_scale == 0.1);
+  CHECK(scenes[0].file.camera->depth_scale == 1);
+  folder.write("test/000002/depth/000007.png", "");
+  CHECK_THROWS_WITH(list_bop_scenes(folder.path().string(), "test"),
+                    Catch::Contains("scene_camera.json: image 7"));
+  CHECK_THROWS_WITH(list_bop_scenes(folder.path().string(), "train"), Catch::Contains("train"));
+}
+
+TEST_CASE("shards share out all scans and keep their numbers", "[inputs]") {
+  std::vector<SceneEntry> scenes(7);
+  for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].number = i;
+  std::size_t total = 0;
+  for (const char* shard : {"1/3", "2/3", "3/3"}) total += take_shard(scenes, shard).size();
+  CHECK(total == 7);
+  CHECK(take_shard(scenes, "2/3")[1].number == 4);
+  for (const char* wrong : {"0/3", "4/3", "1", "a/b", "1/", "-1/2"})
+    CHECK_THROWS_AS(take_shard(scenes, wrong), std::invalid_argument);
+}
