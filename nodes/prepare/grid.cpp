@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/prepare/grid.hpp"
+
+#include <bit>
+#include <numeric>
+
+namespace posevote {
+namespace {
+
+std::uint64_t key_of(std::int64_t y, std::int64_t z) {
+  return (static_cast<std::uint64_t>(z) << 32) | static_cast<std::uint32_t>(y);
+}
+
+std::size_t scatter(std::uint64_t key, std::size_t mask) {
+  key *= 0x9E3779B97F4A7C15ULL;  // Fibonacci hashing
+  return static_cast<std::size_t>(key >> 32) & mask;
+}
+
+struct Entry {
+  std::uint64_t key;
+  float x;
+  std::uint32_t index;
+};
+
+bool operator<(const Entry& a, const Entry& b) {
+  if (a.key != b.key) return a.key < b.key;
+  return a.x != b.x ? a.x < b.x : a.index < b.index;
+}
+
+}  // namespace
+
+PointGrid::PointGrid(const PointMatrix& points, float cell) {
+  std::vector<std::uint32_t> finite;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    if (points.row(i).allFinite()) finite.push_back(static_cast<std::uint32_t>(i));
+  if (finite.empty()) return;
+
+  Eigen::Vector3f low = points.row(finite.front());
+  Eigen::Vector3f high = low;
+  for (const std::uint32_t i : finite) {
+    low = low.cwiseMin(points.row(i).transpose());
+    high = high.cwiseMax(points.row(i).transpose());
+  }
+  origin_ = low;
+  const double extent = (high - low).cast<double>().maxCoeff();
+  // Row numbers fill 32 bits of a key: a cell may not be finer than that.
+  cell_ = std::max({cell, static_cast<float>(extent / 1e9), 1e-9F});
+  last_row_ = std::floor(extent / cell_) + 1;
+
+  std::vector<Entry> entries;
+  entries.reserve(finite.size());
+  for (const std::uint32_t i : finite)
+    entries.push_back(
+        {key_of(row(points(i, 1), low.y()), row(points(i, 2), low.z())), points(i, 0), i});
+  std::sort(entries.begin(), entries.end());
+
+  std::size_t rods = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    rods += i == 0 || entries[i].key != entries[i - 1].key ? 1 : 0;
+  slots_.resize(std::bit_ceil(2 * rods));
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin;
+    for (; end < entries.size() && entries[end].key == entries[begin].key; ++end) {
+      const std::uint32_t i = entries[end].index;
+      x_.push_back(points(i, 0));
+      y_.push_back(points(i, 1));
+      z_.push_back(points(i, 2));
+      index_.push_back(i);
+    }
+    std::size_t at = scatter(entries[begin].key, slots_.size() - 1);
+    while (slots_[at].rod.end != 0) at = (at + 1) & (slots_.size() - 1);
+    slots_[at] = {entries[begin].key,
+                  {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}};
+    begin = end;
+  }
+}
+
+PointGrid::Rod PointGrid::find(std::int64_t y, std::int64_t z) const {
+  if (y < 0 || z < 0) return {};
+  const std::uint64_t key = key_of(y, z);
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t at = scatter(key, mask); slots_[at].rod.end != 0; at = (at + 1) & mask)
+    if (slots_[at].key == key) return slots_[at].rod;
+  return {};
+}
+
+std::optional<Neighbour> PointGrid::nearest(const Eigen::Vector3f& center, float radius) const {
+  std::optional<Neighbour> best;
+  // Most queries have a neighbour close by: look there first, and only else in the whole ball.
+  for (const float reach : {std::min(radius, 0.5F * cell_), radius}) {
+    for_each_within(center, reach, [&best](std::uint32_t index, float squared) {
+      if (!best || squared < best->squared || (squared == best->squared && index < best->index))
+        best = Neighbour{index, squared};
+    });
+    if (best) break;
+  }
+  return best;
+}
+
+}  // namespace posevote
