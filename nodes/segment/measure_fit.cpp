@@ -62,11 +62,6 @@ Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& vi
   return count(points);
 }
 
-double gain(const Fit& fit, float tolerance) {
-  const double relative = fit.rmse / static_cast<double>(tolerance);
-  return static_cast<double>(fit.supported) * (1 - relative * relative);
-}
-
 double fit_score(const Fit& fit) {
   if (fit.supported == 0) return 0;
   const auto supported = static_cast<double>(fit.supported);

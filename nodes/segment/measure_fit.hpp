@@ -28,11 +28,6 @@ struct Fit {
   double rmse = 0;             ///< point to plane, over the supported [m]
 };
 
-/// The better of two fits to the same tolerance has the higher gain: a count of the supported points in
-/// which a point counts the less the farther off it is (Torr, Zisserman, MLESAC 2000), because among
-/// nearly equal poses the bare count is blind.
-double gain(const Fit& fit, float tolerance);
-
 /// `tolerance`: of support; a surface is clearly behind or before at twice that [m].
 Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& view,
                 const Eigen::Isometry3d& T_scene_model, float tolerance);

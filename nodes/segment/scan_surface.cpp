@@ -24,13 +24,16 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
 }
 
 ScanSurface::ScanSurface(const Cloud& scan, const std::vector<char>& explained, bool single_view,
-                         float reach)
-    : viewpoint_(scan.viewpoint), single_view_(single_view) {
-  const std::vector<Eigen::Index> rows = left_over(scan, explained);
-  points_ = scan.points(rows, Eigen::all);
-  normals_ = scan.normals(rows, Eigen::all);
-  grid_ = PointGrid(points_, reach);
-}
+                         float cell)
+    : ScanSurface(left_over(scan, explained), scan, single_view, cell) {}
+
+ScanSurface::ScanSurface(const std::vector<Eigen::Index>& rows, const Cloud& scan,
+                         bool single_view, float cell)
+    : points_(scan.points(rows, Eigen::all)),
+      normals_(scan.normals(rows, Eigen::all)),
+      viewpoint_(scan.viewpoint),
+      single_view_(single_view),
+      grid_(points_, cell) {}
 
 bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
   if (!single_view_) return p.normal.squaredNorm() > 0;
@@ -40,7 +43,7 @@ bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,
                                                              float distance) const {
-  const auto nearest = grid_.nearest(p.point, distance);
+  const std::optional<Neighbour> nearest = grid_.nearest(p.point, distance);
   if (!nearest) return std::nullopt;
   const auto row = static_cast<Eigen::Index>(nearest->index);
   const Eigen::Vector3f normal = normals_.row(row).transpose();

@@ -26,8 +26,8 @@ class ScanSurface {
  public:
   /// The points of `scan` that are not `explained` (empty: none is) and have a normal. `single_view`:
   /// whether the scan is what one sensor at its viewpoint saw (RangeView::usable); if not, a point
-  /// counts as visible whichever way it looks. `reach`: the longest distance asked for, about [m].
-  ScanSurface(const Cloud& scan, const std::vector<char>& explained, bool single_view, float reach);
+  /// counts as visible whichever way it looks. `cell`: about the distance that is asked for most [m].
+  ScanSurface(const Cloud& scan, const std::vector<char>& explained, bool single_view, float cell);
 
   bool empty() const { return points_.rows() == 0; }
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
@@ -37,6 +37,9 @@ class ScanSurface {
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
 
  private:
+  ScanSurface(const std::vector<Eigen::Index>& rows, const Cloud& scan, bool single_view,
+              float cell);
+
   PointMatrix points_, normals_;
   Eigen::Vector3f viewpoint_;
   bool single_view_;

@@ -27,6 +27,8 @@
 namespace posevote {
 namespace {
 
+constexpr float kSearchCell = 2;        // x resolution
+constexpr double kKeptSupport = 0.95;  // ICP may lose a few chance partners at the silhouette, no more
 constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_density means
 
 struct Params {
@@ -52,14 +54,14 @@ struct Scene {
   std::vector<char> feature_explained;  // per scene feature
   ScanSurface surface;
 
-  Scene(const Cloud& scan, const FeatureSet& scan_features, float resolution_m, float reach)
+  Scene(const Cloud& scan, const FeatureSet& scan_features, float resolution_m)
       : cloud(scan),
         features(scan_features),
         resolution(resolution_m),
         view(scan, resolution_m),
         explained(static_cast<std::size_t>(scan.points.rows()), 0),
         feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0),
-        surface(scan, explained, view.usable(), reach) {}
+        surface(scan, explained, view.usable(), kSearchCell * resolution_m) {}
 };
 
 /// Objects in descending number of correspondences; equals in ascending obj_id, then as given.
@@ -75,11 +77,7 @@ std::vector<std::size_t> order_objects(const PerObject<VoteSet>& votes) {
   return order;
 }
 
-float reach_of(const Params& params, float resolution) {
-  return static_cast<float>(std::max(params.icp_distance, params.inlier_distance)) * resolution;
-}
-
-/// The refined pose of a mode; that of ICP only where it fits at least as well as the mode did.
+/// The refined pose of a mode; that of ICP only where it keeps the mode's support.
 struct Candidate {
   PoseMode mode;
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
@@ -103,7 +101,8 @@ Candidate refine_candidate(const LiveVotes& object, std::uint32_t vote, const Sc
   const Eigen::Isometry3d T_refined =
       icp(model.cloud, scene.surface, candidate.T_scene_model, icp_params);
   const Fit refined = measure_fit(model.cloud, scene.surface, scene.view, T_refined, tolerance);
-  if (gain(refined, tolerance) < gain(candidate.fit, tolerance)) return candidate;
+  const auto fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
+  if (static_cast<double>(refined.supported) < fewest) return candidate;
   candidate.T_scene_model = T_refined;
   candidate.fit = refined;
   return candidate;
@@ -140,7 +139,7 @@ void take_out(Scene& scene, const Model& model, const Eigen::Isometry3d& T_scene
   merge(scene.explained, scene.cloud.points, scene.cloud.normals);
   merge(scene.feature_explained, scene.features.points, scene.features.normals);
   scene.surface = ScanSurface(scene.cloud, scene.explained, scene.view.usable(),
-                              reach_of(params, scene.resolution));
+                              kSearchCell * scene.resolution);
 }
 
 /// All instances of one object.
@@ -168,7 +167,7 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
                            const FeatureSet& scene_features, const Cloud& scene_cloud,
                            const Scale& scale, const Params& params) {
   check_inputs(votes, densities, scene_features, scale);
-  Scene scene(scene_cloud, scene_features, scale.resolution, reach_of(params, scale.resolution));
+  Scene scene(scene_cloud, scene_features, scale.resolution);
   Detections found;
   for (const std::size_t i : order_objects(votes)) {
     LiveVotes object = all_votes(votes[i], densities[i]);
