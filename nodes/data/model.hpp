@@ -26,7 +26,6 @@ struct Model {
 struct ModelLibrary {
   std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id
   Scale scale;
-  std::string descriptor;  ///< name of the node that made the descriptors
   std::shared_ptr<const DescriptorIndex> index;
 };
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/match/library_payload.hpp"
+
+#include <utility>
+
+#include "nodes/match/descriptor_index.hpp"
+
+namespace posevote {
+namespace {
+
+void put_cloud(ByteWriter& out, const Cloud& cloud) {
+  out.put_matrix(cloud.points);
+  out.put_matrix(cloud.normals);
+  out.put_matrix(cloud.faces);
+  out.put_matrix(cloud.viewpoint);
+  out.put(std::uint64_t{cloud.dropped});
+}
+
+void put_model(ByteWriter& out, const Model& model) {
+  out.put(model.name);
+  out.put(std::int32_t{model.obj_id});
+  put_cloud(out, model.cloud);
+  out.put_matrix(model.features.points);
+  out.put_matrix(model.features.normals);
+  out.put_matrix(model.features.descriptors);
+  out.put_matrix(model.center);
+  out.put(model.diagonal);
+}
+
+Eigen::Vector3f get_vector(ByteReader& in) {
+  const auto values = in.get_matrix<Eigen::VectorXf>();
+  if (values.size() != 3) throw std::runtime_error("is damaged: a vector is not of length 3");
+  return values;
+}
+
+Cloud get_cloud(ByteReader& in) {
+  Cloud cloud;
+  cloud.points = in.get_matrix<PointMatrix>();
+  cloud.normals = in.get_matrix<PointMatrix>();
+  cloud.faces = in.get_matrix<FaceMatrix>();
+  cloud.viewpoint = get_vector(in);
+  cloud.dropped = in.get<std::uint64_t>();
+  if (cloud.normals.rows() != 0 && cloud.normals.rows() != cloud.points.rows())
+    throw std::runtime_error("is damaged: a cloud has more or fewer normals than points");
+  if (cloud.faces.size() > 0 && cloud.faces.maxCoeff() >= cloud.points.rows())
+    throw std::runtime_error("is damaged: a face names a point that is not there");
+  return cloud;
+}
+
+Model get_model(ByteReader& in) {
+  Model model;
+  model.name = in.get_text();
+  model.obj_id = in.get<std::int32_t>();
+  model.cloud = get_cloud(in);
+  model.features.points = in.get_matrix<PointMatrix>();
+  model.features.normals = in.get_matrix<PointMatrix>();
+  model.features.descriptors = in.get_matrix<DescriptorMatrix>();
+  model.center = get_vector(in);
+  model.diagonal = in.get<float>();
+  const Eigen::Index count = model.features.points.rows();
+  if (model.features.normals.rows() != count || model.features.descriptors.rows() != count)
+    throw std::runtime_error("is damaged: feature points and descriptors differ in number");
+  return model;
+}
+
+}  // namespace
+
+std::string encode_library(const ModelLibrary& library) {
+  ByteWriter out;
+  out.put(library.scale.resolution);
+  const IndexOptions& options = library.index->options();
+  out.put(options.search);
+  out.put(std::int32_t{options.trees});
+  out.put(std::int32_t{options.checks});
+  out.put(std::uint64_t{library.models.size()});
+  for (const auto& model : library.models) put_model(out, *model);
+  return out.bytes();
+}
+
+ModelLibrary decode_library(std::string_view bytes) {
+  ByteReader in(bytes);
+  ModelLibrary library;
+  library.scale.resolution = in.get<float>();
+  IndexOptions options;
+  options.search = in.get_text();
+  options.trees = in.get<std::int32_t>();
+  options.checks = in.get<std::int32_t>();
+  const auto count = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i)
+    library.models.push_back(std::make_shared<const Model>(get_model(in)));
+  if (!in.rest().empty()) throw std::runtime_error("is damaged: it goes on after its end");
+  library.index = index_of(library.models, options);
+  return library;
+}
+
+}  // namespace posevote
