@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The density of a real scan's votes, in miniature nothing: 10 500 correspondences x 60 votes whose
-// translation balls of 1 cm hold some 5 800 votes, of which some 75 pass the rotation test (METHOD.md,
-// section 3). The textbook version, a k-d tree on the translations and a linear rotation test, runs on
-// a sample of the votes beside it.
+// translation balls of 1 cm hold some 5 800 votes, of which some 75 pass the rotation test
+// (METHOD.md, section 3). The textbook version, a k-d tree on the translations and a linear
+// rotation test, runs on a sample of the votes beside it.
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
 #include <pcl/kdtree/kdtree_flann.h>
@@ -20,8 +20,8 @@ constexpr int kCorrespondences = 10500;
 constexpr std::uint32_t kRotations = 60;
 constexpr double kDegree = 3.14159265358979 / 180;
 
-/// Circles of votes as cast_votes makes them, on scene points of one flat region after another, which
-/// is what makes rotations of near votes alike.
+/// Circles of votes as cast_votes makes them, on scene points of one flat region after another,
+/// which is what makes rotations of near votes alike.
 VoteSet scan_like_votes() {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -31,7 +31,7 @@ VoteSet scan_like_votes() {
   };
   VoteSet votes;
   votes.votes_per_correspondence = kRotations;
-  Eigen::Vector3d patch_normal, model_normal;
+  Eigen::Vector3d patch_normal = direction(), model_normal = direction();
   for (int i = 0; i < kCorrespondences; ++i) {
     if (i % 12 == 0) patch_normal = direction(), model_normal = direction();
     const Eigen::Vector3d n = (patch_normal + 0.1 * direction()).normalized();
@@ -39,8 +39,8 @@ VoteSet scan_like_votes() {
         0.055 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
     const double radius = 0.02 * std::abs(uniform(random));
     const Eigen::Vector3d u = n.unitOrthogonal();
-    const auto align = Eigen::Quaterniond::FromTwoVectors(
-        (model_normal + 0.1 * direction()).normalized(), n);
+    const auto align =
+        Eigen::Quaterniond::FromTwoVectors((model_normal + 0.1 * direction()).normalized(), n);
     for (std::uint32_t k = 0; k < kRotations; ++k) {
       const Eigen::AngleAxisd turn(k * 6 * kDegree, n);
       const Eigen::Vector3d t = center + turn * u * radius;
@@ -143,12 +143,20 @@ void textbook(benchmark::State& state) {
   state.counters["near_in_translation"] = near / queries;
   state.counters["neighbours"] = members / queries;
   state.counters["all_votes"] = benchmark::Counter(
-      static_cast<double>(kStride), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      static_cast<double>(kStride),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK(build_index)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(density)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(subtract)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(build_index)
+    ->Arg(1)
+    ->Arg(2)
+    ->ArgName("threads")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(density)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(
+    benchmark::kMillisecond);
+BENCHMARK(subtract)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(
+    benchmark::kMillisecond);
 BENCHMARK(neighbours)->Unit(benchmark::kMicrosecond);
 BENCHMARK(textbook)->Unit(benchmark::kMillisecond);
 
