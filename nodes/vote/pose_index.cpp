@@ -79,7 +79,8 @@ std::vector<WeightedVote> PoseIndex::neighbours(const Eigen::Vector3f& center,
   std::vector<WeightedVote> found;
   if (!is_usable(pose, sorted.bandwidth)) return found;
   const Kernel kernel = make_kernel(sorted.bandwidth);
-  for (const VoteRun& run : CellSearch(sorted).around(translation_cell(pose, sorted.bandwidth)))
+  CellSearch search(sorted);
+  for (const VoteRun& run : search.around(translation_cell(pose, sorted.bandwidth)))
     for (std::uint32_t i = run.begin; i < run.end; ++i)
       if (const std::uint32_t units = kernel_units(kernel, pose, sorted.votes[i].point))
         found.push_back({sorted.numbers[i], static_cast<float>(units) / kWeightUnits});

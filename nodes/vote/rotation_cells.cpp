@@ -41,11 +41,12 @@ bool level_range(double p_a, double p_k, double sine, std::uint32_t& low, std::u
 
 }  // namespace
 
-RotationCode rotation_code(const VotePoint& vote) {
+RotationCode encode_rotation(VotePoint& vote) {
   const std::array<float, 4> q{vote.qw, vote.qx, vote.qy, vote.qz};
   std::uint32_t k = 0;
   for (std::uint32_t i = 1; i < 4; ++i)
     if (std::abs(q[i]) > std::abs(q[k])) k = i;
+  if (q[k] < 0) vote = {vote.tx, vote.ty, vote.tz, -vote.qw, -vote.qx, -vote.qy, -vote.qz};
   RotationCode code = k;
   for (std::uint32_t i = 1; i < 4; ++i) code = code << 8U | level(warp(q[(k + i) % 4] / q[k]));
   return code;

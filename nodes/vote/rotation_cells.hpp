@@ -20,8 +20,8 @@ namespace posevote {
 /// Chart and levels of one rotation, chart in the highest byte.
 using RotationCode = std::uint32_t;
 
-/// The code of a unit quaternion (w, x, y, z).
-RotationCode rotation_code(const VotePoint& vote);
+/// The code of a vote's unit quaternion. Turns the quaternion's sign to that of its chart.
+RotationCode encode_rotation(VotePoint& vote);
 
 /// The ball of rotations around a quaternion that a kernel can reach, as constants.
 struct RotationReach {
