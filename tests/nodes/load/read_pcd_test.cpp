@@ -131,6 +131,17 @@ TEST_CASE("PCD: binary with any types", "[load][pcd]") {
   CHECK(read_pcd(bytes).points == std::vector<Triple>{{-7, 4e9, 0.25}});
 }
 
+TEST_CASE("PCD: compressed data goes field by field, without padding fields", "[load][pcd]") {
+  std::string plain;
+  for (const float value : {1.0F, 2.0F, 3.0F, 4.0F}) append(plain, value);         // x, x, y, y
+  for (const int value : {5, 6}) append(plain, static_cast<std::int16_t>(value));  // z, z
+  const RawMesh mesh = read_pcd(
+      "FIELDS x _ y z\nSIZE 4 1 4 2\nTYPE F U F I\nCOUNT 1 8 1 1\nPOINTS 2\n"
+      "DATA binary_compressed\n" +
+      lzf_block(plain));
+  CHECK(mesh.points == std::vector<Triple>{{1, 3, 5}, {2, 4, 6}});
+}
+
 TEST_CASE("PCD: lying counts are refused before they are believed", "[load][pcd]") {
   CHECK_THAT(pcd_error(header("4000000000", "ascii") + "1 2 3\n"),
              has("claims 4000000000 points, the file has room for at most 1"));

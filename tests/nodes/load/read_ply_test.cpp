@@ -142,6 +142,9 @@ TEST_CASE("PLY: what is not one says so", "[load][ply]") {
              has("line 4: expected a type such as float or uchar, found 'real'"));
   CHECK_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex -1\n"), has("found '-1'"));
   CHECK_THAT(ply_error("ply\nformat ascii 1.0\nproperty float x\n"), has("before the first"));
+  CHECK_THAT(ply_error("ply\nformat ascii 1.0\nelement v\xff 1\n"), has("name 'v\\xff'"));
+  CHECK(ply_error("ply\nformat ascii 1.0\nelement " + std::string(100000, 'v') + " 1\n").size() <
+        100);
   CHECK_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
                        "property float x\n"),
              has("line 5: a second property 'x'"));
@@ -150,6 +153,7 @@ TEST_CASE("PLY: what is not one says so", "[load][ply]") {
 TEST_CASE("PLY: a count the file cannot hold is refused before it is believed", "[load][ply]") {
   CHECK_THAT(ply_error(vertex_header("4000000000") + "end_header\n1 2 3\n4 5 6\n"),
              has("claims 4000000000 vertices, the file has room for at most 2"));
+  CHECK(read_ply(vertex_header("1") + "end_header\n1 2 3").points.size() == 1);  // just room
   const std::string three(36, '\0');
   CHECK_THAT(ply_error(vertex_header("4", "binary_little_endian") + "end_header\n" + three),
              has("claims 4 vertices, the file has room for at most 3"));
