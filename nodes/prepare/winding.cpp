@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/prepare/winding.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <utility>
