@@ -2,6 +2,7 @@
 #include "nodes/prepare/normals.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <stdexcept>
 #include <string>
 
