@@ -43,8 +43,8 @@ double Waves::operator()(const Eigen::Vector3d& p) const {
 }
 
 double Relief::apply(double field, const Eigen::Vector3d& p) const {
-  for (const Ball& bump : bumps) field = smooth_min(field, to_ball(p, bump), 0.1);
-  for (const Ball& dent : dents) field = smooth_max(field, -to_ball(p, dent), 0.06);
+  for (const Ball& bump : bumps) field = smooth_min(field, to_ball(p, bump), 0.12);
+  for (const Ball& dent : dents) field = smooth_max(field, -to_ball(p, dent), 0.12);
   return field;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -32,15 +33,20 @@ Relief relief(const Field& field, Random& random, int bumps, int dents) {
     return Ball{surface_toward(field, random.direction()), radius};
   };
   for (int i = 0; i < bumps; ++i) made.bumps.push_back(ball(0.08, 0.2));
-  for (int i = 0; i < dents; ++i) made.dents.push_back(ball(0.1, 0.25));
+  for (int i = 0; i < dents; ++i) made.dents.push_back(ball(0.1, 0.2));
   return made;
 }
 
+/// Farther than this from a body, its skin and relief change nothing: they need not be computed.
+constexpr double kFar = 0.5;
+
 /// `field` with relief and an uneven skin.
 Field roughen(const Field& field, Random& random, int bumps, int dents, double amplitude) {
-  return [field, amplitude, waves = Waves(random, 10, 7),
-          shape = relief(field, random, bumps, dents)](const Vector3d& p) {
-    return shape.apply(field(p) + amplitude * waves(p), p);
+  const Waves waves(random, 10, 7);
+  const Relief shape = relief(field, random, bumps, dents);
+  return [field, amplitude, waves, shape](const Vector3d& p) {
+    const double smooth = field(p);
+    return std::abs(smooth) > kFar ? smooth : shape.apply(smooth + amplitude * waves(p), p);
   };
 }
 
@@ -72,7 +78,8 @@ Field horn(Random& random) {
         {at.center + at.radius * random.direction(), at.radius * random.uniform(0.35, 0.6)});
   }
   return [spine, knobs, waves = Waves(random, 10, 8)](const Vector3d& p) {
-    return knobs.apply(to_chain(p, spine, 0.05) + 0.012 * waves(p), p);
+    const double tube = to_chain(p, spine, 0.05);
+    return std::abs(tube) > kFar ? tube : knobs.apply(tube + 0.012 * waves(p), p);
   };
 }
 
@@ -115,7 +122,7 @@ Field kettle(Random& random) {
     const double ring = std::sqrt(around * around + p.z() * p.z()) - 0.24 - 0.06 * waves(p);
     return smooth_min(ring, to_chain(p, handle, 0.05), 0.08);
   };
-  return roughen(body, random, 5, 3, 0.01);
+  return roughen(body, random, 6, 0, 0.01);
 }
 
 /// A standing figure: trunk, head and limbs in a pose of its own.
@@ -147,6 +154,25 @@ const std::map<std::string, Field (*)(Random&)>& shapes() {
   return known;
 }
 
+/// Whether each edge joins exactly two triangles. Surface nets pinch the surface where two sheets
+/// of it pass one cell.
+bool is_manifold(const Cloud& mesh) {
+  std::vector<std::uint64_t> edges;  // directed
+  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face)
+    for (int k = 0; k < 3; ++k)
+      edges.push_back(std::uint64_t{mesh.faces(face, k)} << 32U | mesh.faces(face, (k + 1) % 3));
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+Cloud mesh_of(const Field& field) {
+  for (int cells = 42; cells <= 56; ++cells) {  // a slightly finer grid cuts the sheets elsewhere
+    Cloud mesh = surface_nets(field, kExtent, kExtent / cells);
+    if (is_manifold(mesh)) return mesh;
+  }
+  throw std::runtime_error("has parts too thin to mesh; choose another seed");
+}
+
 }  // namespace
 
 const std::vector<std::string>& shape_names() {
@@ -162,7 +188,7 @@ Cloud make_shape(const std::string& shape, std::uint64_t seed, double size) {
   const auto found = shapes().find(shape);
   if (found == shapes().end()) throw std::invalid_argument("no shape is called " + shape);
   Random random(seed);
-  Cloud mesh = surface_nets(found->second(random), kExtent, kExtent / 36);
+  Cloud mesh = mesh_of(found->second(random));
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   mesh.points.rowwise() -= 0.5F * (low + high);
