@@ -61,7 +61,7 @@ RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth) {
   // k.
   const double chart_limit = 0.5 * cosine - std::sqrt(0.75) * sine - 1e-4;
   // One cell of n is about 3 / n rad wide.
-  const double cells = 6 / static_cast<double>(bandwidth.sigma_r);
+  const double cells = 4.5 / static_cast<double>(bandwidth.sigma_r);
   return {sine, chart_limit, std::clamp(static_cast<int>(cells), 1, 24)};
 }
 
