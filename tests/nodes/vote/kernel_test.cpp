@@ -2,6 +2,8 @@
 // The kernel against the formulas of the paper, and the vector code against it, bit for bit.
 #include "nodes/vote/kernel.hpp"
 
+#include <hwy/targets.h>
+
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
@@ -57,7 +59,12 @@ TEST_CASE("the kernel follows the paper, is cut at both bandwidths, and is symme
   }
 }
 
-TEST_CASE("scanning equals the kernel bit for bit, at any length and offset", "[vote]") {
+TEST_CASE("scanning equals the kernel bit for bit, on every instruction set", "[vote]") {
+  const auto best = hwy::SupportedTargets();
+  const auto target = GENERATE(HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_SSSE3);
+  if ((best & target) == 0) return;
+  hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   std::mt19937 random(3);
   const Bandwidth bandwidth{0.01F, 22.5F * kDegree};
   const Kernel kernel = make_kernel(bandwidth);
@@ -84,6 +91,8 @@ TEST_CASE("scanning equals the kernel bit for bit, at any length and offset", "[
   }
   const ScanRange all{0, 6000, 1};
   CHECK(scan_votes(kernel, pointers, vote({0, 0, 0}, {1, 0, 0, 0}), &all, 0) == 0);
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 }  // namespace
