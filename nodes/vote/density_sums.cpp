@@ -183,13 +183,15 @@ std::uint64_t BatchWorker::sum_at(const SortedVote& query) {
 }
 
 void BatchWorker::add_rows(const RotationBox& box) {
-  for (std::uint32_t a = coarse(box.low[0]); a <= coarse(box.high[0]); ++a)
-    for (std::uint32_t b = coarse(box.low[1]); b <= coarse(box.high[1]); ++b) {
-      const std::uint32_t first = rotation_cell(box.chart, a, b, coarse(box.low[2]));
-      const std::uint32_t last = rotation_cell(box.chart, a, b, coarse(box.high[2]));
-      const ScanRange range{cell_begin_[first], cell_begin_[last + 1], box.sign};
-      if (range.begin < range.end) ranges_.push_back(range);
-    }
+  const std::uint32_t a_end = coarse(box.high[0]) + 1, b_end = coarse(box.high[1]) + 1;
+  const std::uint32_t b_begin = coarse(box.low[1]);
+  const std::uint32_t row_length = coarse(box.high[2]) + 1 - coarse(box.low[2]);
+  for (std::uint32_t a = coarse(box.low[0]); a < a_end; ++a) {
+    const std::uint32_t* first =
+        &cell_begin_[rotation_cell(box.chart, a, b_begin, coarse(box.low[2]))];
+    for (std::uint32_t b = b_begin; b < b_end; ++b, first += grid_)
+      if (first[0] < first[row_length]) ranges_.push_back({first[0], first[row_length], box.sign});
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // (METHOD.md, section 3). The textbook version, a k-d tree on the translations and a linear
 // rotation test, runs on a sample of the votes beside it.
 #include <benchmark/benchmark.h>
+#include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
@@ -98,6 +99,16 @@ void density(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(PoseIndex(votes(), {}).densities());
 }
 
+/// On a processor that has nothing newer than AVX2.
+void density_avx2(benchmark::State& state) {
+  if ((hwy::SupportedTargets() & HWY_AVX2) == 0) return state.SkipWithError("no AVX2 here");
+  hwy::SetSupportedTargetsForTest(HWY_AVX2);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  density(state);
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 /// Takes away the first 30 % of the correspondences.
 void subtract(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
@@ -168,6 +179,7 @@ BENCHMARK(build_index)
     ->ArgName("threads")
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(density_avx2)->Arg(1)->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(density)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(
     benchmark::kMillisecond);
 BENCHMARK(subtract)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(
