@@ -55,6 +55,8 @@ class PointGrid {
       }
   }
 
+  float cell() const { return cell_; }
+
   /// The nearest point within `radius`; of several at one distance the one with the smallest index.
   std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float radius) const;
 

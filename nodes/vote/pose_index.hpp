@@ -3,10 +3,10 @@
 //
 // Paper, eq. 10: the density of a vote is the sum over all votes with |t - t_i| <= sigma_t and
 // d_R <= sigma_R of exp(-d_t^2 / 2 sigma_t^2) exp(-d_R^2 / 2 sigma_R^2). The paper searches the
-// translations with a k-d tree and tests the rotations one by one; on a real scan some 80 times more
-// votes pass the first test than the second, so this index sorts votes by both. It prunes, it never
-// approximates: membership is decided by one float32 predicate (`kernel.hpp`), and every weight is a
-// multiple of 2^-25, so sums in double are exact and do not depend on their order.
+// translations with a k-d tree and tests the rotations one by one; on a real scan some 80 times
+// more votes pass the first test than the second, so this index sorts votes by both. It prunes, it
+// never approximates: membership is decided by one float32 predicate (`kernel.hpp`), and every
+// weight is a multiple of 2^-25, so sums in double are exact and do not depend on their order.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,14 +15,9 @@
 #include <vector>
 
 #include "nodes/data/votes.hpp"
+#include "nodes/vote/kernel.hpp"
 
 namespace posevote {
-
-/// Kernel bandwidths, which are also the cut-off radii.
-struct Bandwidth {
-  float sigma_t = 0.01F;       ///< [m]
-  float sigma_r = 0.3926991F;  ///< [rad], 22.5 deg
-};
 
 /// A vote near a pose, and what it adds to the density there.
 struct WeightedVote {
@@ -33,6 +28,8 @@ struct WeightedVote {
 /// Immutable once built; safe to read from many threads.
 class PoseIndex {
  public:
+  /// A vote that is not a pose (not finite, no unit quaternion) is kept out: its density is 0.
+  /// Throws std::invalid_argument for a bandwidth outside (0, inf) m or [0.5, 90] deg.
   PoseIndex(const VoteSet& votes, Bandwidth bandwidth);
   ~PoseIndex();
 
@@ -41,15 +38,15 @@ class PoseIndex {
   /// The density of every vote, in vote order; parallel.
   std::vector<double> densities() const;
 
-  /// Takes the votes `removed` out of the densities of all others: afterwards `density[v]`, for every
-  /// v with alive[v], equals what densities() would give if the removed votes had never been cast.
-  /// `alive` must already be false for the removed votes and those of earlier calls; densities of
-  /// votes that are not alive are set to 0.
+  /// Takes the votes `removed` out of the densities of all others: afterwards `density[v]`, for
+  /// every v with alive[v], equals what densities() would give if the removed votes had never been
+  /// cast. `alive` must already be false for the removed votes and those of earlier calls;
+  /// densities of votes that are not alive are set to 0.
   void subtract(const std::vector<std::uint32_t>& removed, const std::vector<char>& alive,
                 std::vector<double>& density) const;
 
-  /// The votes in the neighbourhood of any pose, in ascending order of vote. The pose's translation is
-  /// where the model's centre lands, as in VoteSet.
+  /// The votes in the neighbourhood of any pose, in ascending order of vote. The pose's translation
+  /// is where the model's centre lands, as in VoteSet.
   std::vector<WeightedVote> neighbours(const Eigen::Vector3f& center,
                                        const Eigen::Quaternionf& rotation) const;
 

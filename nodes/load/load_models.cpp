@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads the models of a run, in metres, each in its own frame, in the order given: point clouds or
+// meshes (.ply .pcd .obj .stl .off). Files are read in parallel. Fails with the names of all models
+// that could not be read.
+//
+//   load_models: {in: model_files, out: model_meshes, unit: mm}
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "graph/parallel.hpp"
+#include "graph/registry.hpp"
+#include "nodes/data/files.hpp"
+#include "nodes/load/read_cloud.hpp"
+
+namespace posevote {
+namespace {
+
+struct Params {
+  std::string unit = "m";
+};
+
+PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
+  if (files.empty()) throw std::runtime_error("there are no models to load");
+  PerObject<Cloud> models;
+  models.slots.resize(files.size());
+  std::vector<std::string> problems(files.size());
+  graph::parallel_for(files.size(), 1, [&](std::size_t i) {
+    try {
+      models.slots[i] =
+          std::make_shared<const Cloud>(read_cloud(files[i].path, metres_per(params.unit)));
+    } catch (const std::exception& error) {
+      problems[i] = files[i].path.string() + ": " + error.what();
+    }
+  });
+  std::string all;
+  for (const std::string& problem : problems)
+    if (!problem.empty()) all += (all.empty() ? "" : "; ") + problem;
+  if (!all.empty()) throw std::runtime_error(all);
+  return models;
+}
+
+const auto registered =
+    graph::register_node("load_models", load_models, "Loads all models, as meshes or raw clouds.")
+        .input("model_files")
+        .output("model_meshes")
+        .param("unit", &Params::unit, "", "Unit of length in model files.",
+               graph::one_of({"mm", "m"}));
+
+}  // namespace
+}  // namespace posevote

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "nodes/data/cloud.hpp"
+
+namespace posevote {
+
+/// Reads a point cloud or mesh; the extension says how: .ply .pcd .obj .stl .off, in any case.
+/// Points that are NaN or infinite are removed and counted in Cloud::dropped, with the faces that
+/// use them; normals are made unit length, (0, 0, 0) where they have no direction. Throws
+/// std::runtime_error that says what is wrong and where, but does not repeat the path.
+Cloud read_cloud(const std::filesystem::path& path, double metres_per_unit);
+
+/// Metres per "mm" or "m".
+double metres_per(const std::string& unit);
+
+/// The extension in lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& path);
+
+}  // namespace posevote

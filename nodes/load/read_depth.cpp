@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/load/read_depth.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "nodes/load/file_bytes.hpp"
+#include "nodes/load/png_depth.hpp"
+
+namespace posevote {
+namespace {
+
+void check_camera(const Camera& camera) {
+  constexpr double kMostScale = 1e6;
+  constexpr double kMostPixels = 1e6;  // beyond, points need not be finite any more
+  const auto focal = [](double f) { return f >= 1 && f <= kMostPixels; };
+  // A principal point of exactly (0, 0) was not given: it lies near the image's centre.
+  const bool centred = std::abs(camera.cx) <= kMostPixels && std::abs(camera.cy) <= kMostPixels &&
+                       (camera.cx != 0 || camera.cy != 0);
+  if (!focal(camera.fx) || !focal(camera.fy) || !centred)
+    throw std::runtime_error(
+        "a depth image needs its camera: fx = " + std::to_string(camera.fx) +
+        ", fy = " + std::to_string(camera.fy) + ", cx = " + std::to_string(camera.cx) +
+        ", cy = " + std::to_string(camera.cy) +
+        " pixels. Set load_scene.fx, fy, cx and cy (as in --set load_scene.fx=572.4), or use a "
+        "data set with scene_camera.json");
+  if (!(camera.depth_scale > 0 && camera.depth_scale <= kMostScale))
+    throw std::runtime_error("depth_scale is " + std::to_string(camera.depth_scale) +
+                             " mm per unit, expected more than 0 and at most 1e6");
+}
+
+/// Depth of every raw value [m], 0 where it is to be left out.
+std::vector<float> depth_table(const Camera& camera, const DepthRange& range) {
+  std::vector<float> depths(std::size_t{1} << 16, 0.0F);
+  for (std::size_t raw = 1; raw < depths.size(); ++raw) {
+    const double depth = static_cast<double>(raw) * camera.depth_scale * 0.001;
+    if (depth >= range.near && (range.far <= 0 || depth <= range.far))
+      depths[raw] = static_cast<float>(depth);
+  }
+  return depths;
+}
+
+}  // namespace
+
+Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
+  check_camera(camera);
+  const DepthImage image = decode_depth_png(read_file(path).view());
+  const std::vector<float> depths = depth_table(camera, range);
+  Cloud cloud;
+  cloud.points.resize(static_cast<Eigen::Index>(image.values.size()), 3);
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const float z = depths[image.values[i]];
+    if (z <= 0) continue;
+    const auto u = static_cast<double>(i % image.width), v = static_cast<double>(i / image.width);
+    cloud.points.row(count++) << static_cast<float>((u - camera.cx) * z / camera.fx),
+        static_cast<float>((v - camera.cy) * z / camera.fy), z;
+  }
+  if (count == 0)
+    throw std::runtime_error("none of the image's " + std::to_string(image.values.size()) +
+                             " pixels holds a depth within the limits (0 is no measurement)");
+  cloud.points.conservativeResize(count, 3);
+  return cloud;
+}
+
+}  // namespace posevote

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/data/files.hpp"
+
+namespace posevote {
+
+/// Which depths to take [m]; far = 0: no limit.
+struct DepthRange {
+  double near = 0;
+  double far = 0;
+};
+
+/// Reads a depth image (PNG, 16-bit grey) as the points it measured, row by row: x right, y down, z
+/// forward, the camera at the origin. Integer pixel coordinates are pixel centres; 0 is no
+/// measurement. Throws std::runtime_error that says what is wrong, but does not repeat the path.
+Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range);
+
+}  // namespace posevote

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A uniform subset of a cloud: the points that get a descriptor (paper, section 4: some 10 000 a
+// model).
+//
+// Of each cube of edge `spacing` the point nearest to the centroid of the cube's points. If that
+// gives more than `max_points`, the spacing grows until they fit. O(n log n).
+//
+//   pick_feature_points: {in: [cloud, scale], out: points, spacing: 2.5, max_points: 10000}
+#include <cmath>
+
+#include "graph/registry.hpp"
+#include "nodes/data/features.hpp"
+#include "nodes/prepare/voxels.hpp"
+
+namespace posevote {
+namespace {
+
+struct Params {
+  double spacing = 2.5;
+  int max_points = 10000;
+};
+
+std::uint32_t most_central(const PointMatrix& points, const Voxels& voxels, std::size_t voxel) {
+  Eigen::RowVector3d centroid = Eigen::RowVector3d::Zero();
+  const std::size_t begin = voxels.starts[voxel];
+  const std::size_t end = voxels.starts[voxel + 1];
+  for (std::size_t i = begin; i < end; ++i) centroid += points.row(voxels.order[i]).cast<double>();
+  centroid /= static_cast<double>(end - begin);
+  std::uint32_t best = voxels.order[begin];
+  double best_distance = -1;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t point = voxels.order[i];
+    const double distance = (points.row(point).cast<double>() - centroid).squaredNorm();
+    if (best_distance >= 0 && distance >= best_distance) continue;
+    best_distance = distance;
+    best = point;
+  }
+  return best;
+}
+
+FeaturePoints pick_feature_points(const Cloud& cloud, const Scale& scale, const Params& params) {
+  double leaf = params.spacing * scale.resolution;
+  Voxels voxels = group_by_voxel(cloud.points, static_cast<float>(leaf));
+  const auto most = static_cast<std::size_t>(params.max_points);
+  while (params.max_points > 0 && voxels.size() > most) {
+    // A surface has a number of cubes that falls with the square of their edge.
+    leaf *= 1.01 * std::sqrt(static_cast<double>(voxels.size()) / static_cast<double>(most));
+    voxels = group_by_voxel(cloud.points, static_cast<float>(leaf));
+  }
+  FeaturePoints picked;
+  for (std::size_t v = 0; v < voxels.size(); ++v)
+    picked.indices.push_back(most_central(cloud.points, voxels, v));
+  return picked;
+}
+
+const auto registered =
+    graph::register_node("pick_feature_points", pick_feature_points,
+                         "A uniform subset of a cloud: the points that get a descriptor.")
+        .input("cloud")
+        .input("scale")
+        .output("points")
+        .param("spacing", &Params::spacing, "x resolution", "Distance between feature points.",
+               graph::greater_than(0))
+        .param("max_points", &Params::max_points, "",
+               "More points than this widen the spacing; 0: no limit.", graph::at_least(0));
+
+}  // namespace
+}  // namespace posevote

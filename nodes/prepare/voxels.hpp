@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+
+namespace posevote {
+
+/// Points grouped by voxel: `order` holds the points' indices, voxel v those from starts[v] to
+/// starts[v + 1]; voxels in z-y-x order, points within a voxel in ascending order.
+struct Voxels {
+  std::vector<std::uint32_t> order;
+  std::vector<std::size_t> starts;
+
+  std::size_t size() const { return starts.size() - 1; }
+};
+
+/// Sorts finite points into cubes of edge `leaf` [m] whose corner is the points' own minimum: a
+/// cloud that is moved as a whole is grouped alike. Throws std::runtime_error where the cloud spans
+/// more than two million cubes along an axis.
+Voxels group_by_voxel(const PointMatrix& points, float leaf);
+
+}  // namespace posevote

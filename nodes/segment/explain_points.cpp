@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/explain_points.hpp"
+
+#include "graph/parallel.hpp"
+
+namespace posevote {
+
+std::vector<char> explain_points(const Cloud& model, const PointGrid& model_grid,
+                                 const Eigen::Isometry3d& T_scene_model, const PointMatrix& points,
+                                 const PointMatrix& normals, float distance) {
+  const Eigen::Isometry3f T_model_scene = T_scene_model.inverse().cast<float>();
+  std::vector<char> explained(static_cast<std::size_t>(points.rows()), 0);
+  graph::parallel_for(explained.size(), 512, [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::Vector3f point = T_model_scene * Eigen::Vector3f(points.row(row).transpose());
+    const Eigen::Vector3f normal =
+        T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
+    // Any model point of the right side will do: of a thin wall the wrong side may be the nearer one.
+    bool near = false;
+    model_grid.for_each_within(point, distance, [&](std::uint32_t neighbour, float) {
+      near = near || model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
+    });
+    explained[i] = static_cast<char>(near);
+  });
+  return explained;
+}
+
+}  // namespace posevote

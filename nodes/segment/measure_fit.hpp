@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How well a posed model agrees with what the sensor measured. Every model point that turns its outside
+// to the sensor gets one verdict:
+//
+//   supported     a scan point lies within the tolerance and its normal agrees
+//   contradicted  the sensor saw through the point to a surface clearly behind it
+//   mismatched    a surface was measured there, but not this one: other orientation, or already
+//                 explained by another detection
+//   unseen        nothing was measured in that direction
+//   hidden        a measured surface stands before the point: says nothing
+//
+// One nearest-neighbour search a point.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/segment/range_view.hpp"
+#include "nodes/segment/scan_surface.hpp"
+
+namespace posevote {
+
+struct Fit {
+  std::size_t facing = 0;  ///< all of the below
+  std::size_t supported = 0, contradicted = 0, mismatched = 0, unseen = 0, hidden = 0;
+  double inlier_fraction = 0;  ///< supported / facing
+  double rmse = 0;             ///< point to plane, over the supported [m]
+};
+
+/// `tolerance`: of support; a surface is clearly behind or before at twice that [m].
+Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& view,
+                const Eigen::Isometry3d& T_scene_model, float tolerance);
+
+/// The detection's score in [0, 1]: how much of what should be visible is there, times how much there
+/// is to go by; see the .cpp for the reasons.
+double fit_score(const Fit& fit);
+
+}  // namespace posevote

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums of kernel weights: of all votes of one sorted set at every vote of another.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nodes/vote/sorted_votes.hpp"
+
+namespace posevote {
+
+/// For every query vote, in units of 2^-25 and in the order of `queries`: the sum of the weights of
+/// its neighbours among `others`. Both sets have the same bandwidth. Parallel over the queries.
+std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const SortedVotes& others);
+
+}  // namespace posevote

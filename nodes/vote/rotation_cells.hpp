@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A grid over rotations: where a unit quaternion lies, and which part of the grid a ball of
+// rotations can reach.
+//
+// The sphere of unit quaternions is cut like a cube map. The component k of largest magnitude
+// chooses one of four charts (q and -q are one rotation, so q_k > 0), the other three divided by
+// q_k lie in
+// [-1, 1]^3. Each is warped so that cells are nearly equal in angle, v = u (4 - |u|) / 3, and cut
+// into 256 levels. A grid of n <= 256 cells per axis is a coarsening of the levels, cell = level n
+// / 256.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "nodes/vote/kernel.hpp"
+
+namespace posevote {
+
+/// Chart and levels of one rotation, chart in the highest byte.
+using RotationCode = std::uint32_t;
+
+/// The code of a vote's unit quaternion. Turns the quaternion's sign to that of its chart.
+RotationCode encode_rotation(VotePoint& vote);
+
+/// The ball of rotations around a quaternion that a kernel can reach, as constants.
+struct RotationReach {
+  double sine;         ///< of half the angle, widened so that rounding cannot lose a neighbour
+  double chart_limit;  ///< a chart is out of reach where the centre's component is below this
+  int cells_per_axis;  ///< of a grid whose cells are about half as wide as the reach
+};
+
+RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth);
+
+/// A box of levels of one chart, borders included. In it, quaternions of the chart's sign are to be
+/// compared with `sign` times the centre.
+struct RotationBox {
+  std::uint32_t chart = 0;
+  float sign = 1;
+  std::array<std::uint32_t, 3> low{}, high{};
+};
+
+/// Boxes that together hold every rotation within reach of a vote, at most two per chart (one per
+/// sign). A rotation within reach may lie in two boxes, but is near the centre of one sign only.
+struct RotationBoxes {
+  std::array<RotationBox, 8> items;
+  int count = 0;
+};
+
+RotationBoxes rotation_boxes(const VotePoint& vote, const RotationReach& reach);
+
+}  // namespace posevote

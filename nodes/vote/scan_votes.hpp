@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The inner loop of the density: one vote against runs of others, as wide as the processor allows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "nodes/vote/kernel.hpp"
+
+namespace posevote {
+
+/// Other votes as seven arrays. Up to kScanPadding floats behind the last are read, not used.
+struct VoteColumns {
+  const float *tx, *ty, *tz, *qw, *qx, *qy, *qz;
+};
+
+constexpr std::size_t kScanPadding = 64;
+
+/// Votes begin to end - 1 of the columns, to be compared with `sign` times the query's quaternion.
+struct ScanRange {
+  std::uint32_t begin, end;
+  float sign;
+};
+
+/// The sum over all votes of the ranges of their weights at the query, in units of 2^-25, where a
+/// vote counts if it is near under its range's sign. Equals kernel_units bit for bit on every
+/// processor.
+std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
+                         const ScanRange* ranges, std::size_t range_count);
+
+}  // namespace posevote

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Votes sorted by the cell of a sparse grid over translations, so that everything near a place lies
+// in a few contiguous runs. The grid has no extent: coordinates of kilometres cost nothing.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nodes/data/votes.hpp"
+#include "nodes/vote/kernel.hpp"
+#include "nodes/vote/rotation_cells.hpp"
+
+namespace posevote {
+
+/// A cell of the translation grid; cells are ordered by x, then y, then z.
+struct TranslationCell {
+  std::int32_t x = 0, y = 0, z = 0;
+  auto operator<=>(const TranslationCell&) const = default;
+};
+
+/// A vote as the searches read it, its quaternion with the sign of its chart. Half a cache line.
+struct SortedVote {
+  VotePoint point;
+  RotationCode code;
+};
+
+/// Translations that are neighbours lie in cells that differ by at most 1 along each axis.
+struct SortedVotes {
+  Bandwidth bandwidth;
+  std::vector<SortedVote> votes;          ///< by cell, then by number
+  std::vector<std::uint32_t> numbers;     ///< of each in the VoteSet
+  std::vector<TranslationCell> cells;     ///< occupied ones, ascending
+  std::vector<std::uint32_t> cell_begin;  ///< per cell and one more: its first vote
+
+  std::size_t size() const { return votes.size(); }
+};
+
+/// Votes lo to hi - 1 of a SortedVotes.
+struct VoteRun {
+  std::uint32_t begin = 0, end = 0;
+};
+
+/// The cell of a usable vote.
+TranslationCell translation_cell(const VotePoint& vote, Bandwidth bandwidth);
+
+/// Vote v of a set.
+VotePoint vote_point(const VoteSet& votes, std::size_t v);
+
+/// Sorts the usable votes of a set (see is_usable); the others are left out.
+SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth);
+
+/// The votes whose number n has keep[n] != 0, in the same order.
+SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep);
+
+/// Finds the runs of votes in the 3 x 3 x 3 cells around a cell. Fast when asked for cells in
+/// ascending order, for then each row of cells is found beside its predecessor.
+class CellSearch {
+ public:
+  explicit CellSearch(const SortedVotes& votes) : votes_(&votes) {}
+
+  /// The non-empty runs around a cell, ascending.
+  const std::vector<VoteRun>& around(const TranslationCell& cell) &;
+
+ private:
+  const SortedVotes* votes_;
+  std::size_t cursor_[9] = {};  ///< per row of cells: where the last search ended
+  std::vector<VoteRun> runs_;
+};
+
+}  // namespace posevote

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/write/canvas.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace posevote {
+namespace {
+
+struct Glyph {
+  char letter;
+  std::array<std::uint8_t, 7> rows;  ///< five dots a row, the leftmost in bit 4
+};
+
+constexpr Glyph kFont[] = {
+    {'0', {14, 17, 19, 21, 25, 17, 14}}, {'1', {4, 12, 4, 4, 4, 4, 14}},
+    {'2', {14, 17, 1, 2, 4, 8, 31}},     {'3', {31, 2, 4, 2, 1, 17, 14}},
+    {'4', {2, 6, 10, 18, 31, 2, 2}},     {'5', {31, 16, 30, 1, 1, 17, 14}},
+    {'6', {6, 8, 16, 30, 17, 17, 14}},   {'7', {31, 1, 2, 4, 8, 8, 8}},
+    {'8', {14, 17, 17, 14, 17, 17, 14}}, {'9', {14, 17, 17, 15, 1, 2, 12}},
+    {'A', {14, 17, 17, 31, 17, 17, 17}}, {'B', {30, 17, 17, 30, 17, 17, 30}},
+    {'C', {14, 17, 16, 16, 16, 17, 14}}, {'D', {28, 18, 17, 17, 17, 18, 28}},
+    {'E', {31, 16, 16, 30, 16, 16, 31}}, {'F', {31, 16, 16, 30, 16, 16, 16}},
+    {'G', {14, 17, 16, 23, 17, 17, 15}}, {'H', {17, 17, 17, 31, 17, 17, 17}},
+    {'I', {14, 4, 4, 4, 4, 4, 14}},      {'J', {7, 2, 2, 2, 2, 18, 12}},
+    {'K', {17, 18, 20, 24, 20, 18, 17}}, {'L', {16, 16, 16, 16, 16, 16, 31}},
+    {'M', {17, 27, 21, 21, 17, 17, 17}}, {'N', {17, 17, 25, 21, 19, 17, 17}},
+    {'O', {14, 17, 17, 17, 17, 17, 14}}, {'P', {30, 17, 17, 30, 16, 16, 16}},
+    {'Q', {14, 17, 17, 17, 21, 18, 13}}, {'R', {30, 17, 17, 30, 20, 18, 17}},
+    {'S', {15, 16, 16, 14, 1, 1, 30}},   {'T', {31, 4, 4, 4, 4, 4, 4}},
+    {'U', {17, 17, 17, 17, 17, 17, 14}}, {'V', {17, 17, 17, 17, 17, 10, 4}},
+    {'W', {17, 17, 17, 21, 21, 21, 10}}, {'X', {17, 17, 10, 4, 10, 17, 17}},
+    {'Y', {17, 17, 17, 10, 4, 4, 4}},    {'Z', {31, 1, 2, 4, 8, 16, 31}},
+    {'.', {0, 0, 0, 0, 0, 12, 12}},      {'-', {0, 0, 0, 31, 0, 0, 0}},
+    {'_', {0, 0, 0, 0, 0, 0, 31}},       {'%', {24, 25, 2, 4, 8, 19, 3}},
+};
+
+const Glyph* find_glyph(char letter) {
+  const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  const auto* found = std::find_if(std::begin(kFont), std::end(kFont),
+                                   [upper](const Glyph& glyph) { return glyph.letter == upper; });
+  return found == std::end(kFont) ? nullptr : found;
+}
+
+std::uint8_t to_byte(float value) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
+}
+
+}  // namespace
+
+Canvas::Canvas(int width, int height, const Colour& background)
+    : width_(width),
+      height_(height),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3),
+      depth_(pixels_.size() / 3, std::numeric_limits<float>::infinity()) {
+  fill(0, 0, width, height, background);
+}
+
+void Canvas::fill(int x, int y, int width, int height, const Colour& colour) {
+  for (int row = std::max(0, y); row < std::min(height_, y + height); ++row)
+    for (int column = std::max(0, x); column < std::min(width_, x + width); ++column) {
+      const std::size_t at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                                  static_cast<std::size_t>(column));
+      for (std::size_t k = 0; k < 3; ++k) pixels_[at + k] = to_byte(colour(static_cast<int>(k)));
+    }
+}
+
+void Canvas::splat(float x, float y, float depth, int radius, const Colour& colour) {
+  if (!(std::abs(x) < 1e6F) || !(std::abs(y) < 1e6F)) return;
+  const int center_x = static_cast<int>(std::lround(x));
+  const int center_y = static_cast<int>(std::lround(y));
+  for (int row = std::max(0, center_y - radius); row <= std::min(height_ - 1, center_y + radius);
+       ++row)
+    for (int column = std::max(0, center_x - radius);
+         column <= std::min(width_ - 1, center_x + radius); ++column) {
+      float& nearest = depth_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                              static_cast<std::size_t>(column)];
+      if (depth >= nearest) continue;
+      nearest = depth;
+      fill(column, row, 1, 1, colour);
+    }
+}
+
+void Canvas::text(int x, int y, int size, const std::string& words, const Colour& colour) {
+  const int step = 6 * size;
+  fill(x - size, y - size, static_cast<int>(words.size()) * step + size, 9 * size,
+       {0.1F, 0.1F, 0.1F});
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Glyph* glyph = find_glyph(words[i]);
+    if (!glyph) continue;
+    for (int row = 0; row < 7; ++row)
+      for (int dot = 0; dot < 5; ++dot)
+        if ((glyph->rows[static_cast<std::size_t>(row)] >> (4 - dot)) & 1)
+          fill(x + static_cast<int>(i) * step + dot * size, y + row * size, size, size, colour);
+  }
+}
+
+void Canvas::save(const std::filesystem::path& png) const {
+  const std::filesystem::path temporary = png.string() + ".part";
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width_);
+  image.height = static_cast<png_uint_32>(height_);
+  image.format = PNG_FORMAT_RGB;
+  if (png_image_write_to_file(&image, temporary.c_str(), 0, pixels_.data(), 0, nullptr) == 0) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw std::runtime_error(png.string() + ": cannot be written: " + image.message);
+  }
+  std::filesystem::rename(temporary, png);
+}
+
+Colour distinct_colour(std::size_t i) {
+  static const std::array<Colour, 10> colours{
+      Colour{0.90F, 0.29F, 0.23F}, Colour{0.25F, 0.65F, 0.32F}, Colour{0.25F, 0.47F, 0.85F},
+      Colour{0.95F, 0.68F, 0.16F}, Colour{0.63F, 0.35F, 0.75F}, Colour{0.20F, 0.70F, 0.72F},
+      Colour{0.93F, 0.47F, 0.65F}, Colour{0.60F, 0.72F, 0.20F}, Colour{0.60F, 0.43F, 0.30F},
+      Colour{0.45F, 0.52F, 0.60F}};
+  return colours[i % colours.size()];
+}
+
+}  // namespace posevote

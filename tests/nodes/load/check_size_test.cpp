@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <random>
+
+#include "nodes/data/model.hpp"
+#include "tests/nodes/load/support.hpp"
+#include "tests/support/run_node.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+/// Points of a cube with that diagonal.
+Cloud cube(double diagonal, Eigen::Index count = 2000) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place(0, static_cast<float>(diagonal / std::sqrt(3.0)));
+  Cloud cloud;
+  cloud.points = PointMatrix::NullaryExpr(count, 3, [&] { return place(random); });
+  return cloud;
+}
+
+ModelLibrary library(const std::vector<float>& diagonals) {
+  ModelLibrary models;
+  for (const float diagonal : diagonals) {
+    auto model = std::make_shared<Model>();
+    model->diagonal = diagonal;
+    models.models.push_back(model);
+  }
+  return models;
+}
+
+std::string size_error(const Cloud& scan, const ModelLibrary& models) {
+  return error_of([&] { run_node<Cloud>("check_size", {}, scan, models); });
+}
+
+}  // namespace
+
+TEST_CASE("check_size: sizes that fit pass, unchanged", "[load]") {
+  Cloud scan = cube(0.5);
+  scan.normals = scan.points;
+  scan.dropped = 3;
+  const Cloud same = run_node<Cloud>("check_size", {}, scan, library({0.2F, 0.4F}));
+  CHECK(same.points == scan.points);
+  CHECK(same.normals == scan.normals);
+  CHECK(same.dropped == 3);
+  CHECK(size_error(cube(0.15), library({0.3F})) == "(no error)");        // half hidden
+  CHECK(size_error(cube(0.15), library({0.1F, 1.5F})) == "(no error)");  // less than the largest
+  CHECK(size_error(cube(12), library({0.05F})) == "(no error)");         // a room, a cup
+  CHECK(size_error(cube(0.3, 1), library({0.3F})) != "(no error)");      // one point: no size
+}
+
+TEST_CASE("check_size: a factor of 1000 is refused, in both directions", "[load]") {
+  for (const double size : {0.25, 0.45, 1.0, 4.0}) {
+    CHECK_THAT(size_error(cube(1000 * size), library({0.2F, 0.4F})),
+               has("load_models.unit (mm read as m"));
+    CHECK_THAT(size_error(cube(size / 1000), library({0.2F, 0.4F})), has("(m read as mm"));
+    CHECK_THAT(size_error(cube(size), library({200, 400})), has("(m read as mm"));
+  }
+  CHECK_THAT(size_error(cube(1400), library({0.2F, 0.4F})),
+             has("diagonal is 13") && has(" m, the models' 0.2 m to 0.4 m: check load_scene.unit"));
+}
+
+TEST_CASE("check_size: stray points change nothing", "[load]") {
+  Cloud scan = cube(0.5);
+  scan.points.topRows(20).setConstant(5000);
+  scan.points.bottomRows(10).setConstant(-3e38F);
+  CHECK(size_error(scan, library({0.3F})) == "(no error)");
+  Cloud tiny = cube(0.0005);
+  tiny.points.topRows(20).setConstant(0.5);
+  CHECK(size_error(tiny, library({0.3F})) != "(no error)");
+}
+
+TEST_CASE("check_size: nothing to compare is an error", "[load]") {
+  CHECK_THAT(size_error(Cloud{}, library({0.3F})), has("no points"));
+  CHECK_THAT(size_error(cube(1), ModelLibrary{}), has("library is empty"));
+}

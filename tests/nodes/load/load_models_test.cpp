@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/data/files.hpp"
+#include "tests/nodes/load/support.hpp"
+#include "tests/support/run_node.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+TEST_CASE("load_models: one cloud a file, in order", "[load]") {
+  const TempDir dir;
+  ModelFiles files;
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = "model" + std::to_string(i);
+    files.push_back({dir.write(name + ".obj", "v " + std::to_string(i) + " 0 0\n"), i + 1, name});
+  }
+  const auto models = run_node<PerObject<Cloud>>("load_models", {{"unit", "mm"}}, files);
+  REQUIRE(models.size() == 20);
+  for (std::size_t i = 0; i < 20; ++i)
+    CHECK(models[i].points(0, 0) == Approx(static_cast<double>(i) / 1000));
+  const auto metres = run_node<PerObject<Cloud>>("load_models", {}, files);
+  CHECK(metres[7].points(0, 0) == 7);
+}
+
+TEST_CASE("load_models: errors name every file that could not be read", "[load]") {
+  const TempDir dir;
+  const ModelFiles files{{dir.path("a.ply"), 1, "a"},
+                         {dir.write("b.obj", "v 0 0 0\n"), 2, "b"},
+                         {dir.write("c.obj", "v 0 0\n"), 3, "c"}};
+  const auto load = [](const ModelFiles& f) { run_node<PerObject<Cloud>>("load_models", {}, f); };
+  CHECK(error_of([&] { load(files); }) == files[0].path.string() + ": there is no such file; " +
+                                              files[2].path.string() +
+                                              ": line 1: ends where a number was expected");
+  CHECK_THAT(error_of([&] { load({}); }), has("no models"));
+}
