@@ -14,7 +14,7 @@ constexpr float kTolerance = 2 * kResolution;
 
 Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_scene_model) {
   const RangeView view(scan, kResolution);
-  const ScanSurface surface(scan, {}, view.usable(), kTolerance);
+  const ScanSurface surface(scan, view.usable(), kTolerance);
   return measure_fit(model, surface, view, T_scene_model, kTolerance);
 }
 
