@@ -73,9 +73,11 @@ TrueObject read_object(const json& info) {
                            info.at("size_" + axes[axis]).get<double>() / 2) *
                           kMetresPerUnit;
   object.symmetries = {Eigen::Isometry3d::Identity()};
-  for (const json& matrix : info.value("symmetries_discrete", json::array()))
+  const json discrete = info.value("symmetries_discrete", json::array());
+  for (const json& matrix : discrete)
     object.symmetries.push_back(read_symmetry(matrix));
-  for (const json& symmetry : info.value("symmetries_continuous", json::array())) {
+  const json continuous = info.value("symmetries_continuous", json::array());
+  for (const json& symmetry : continuous) {
     const std::vector<double> axis = numbers(symmetry.at("axis"), 3, "axis");
     object.axes.push_back(Eigen::Vector3d(axis[0], axis[1], axis[2]).normalized());
     if (!object.axes.back().allFinite() || object.axes.back().isZero())
@@ -139,7 +141,8 @@ void read_scene(const fs::path& folder, int scene_id, GroundTruth& truth) {
 
 void read_objects(const fs::path& folder, GroundTruth& truth) {
   const fs::path file = folder / "models_info.json";
-  for (const auto& item : read_json(file).items()) {
+  const json objects = read_json(file);
+  for (const auto& item : objects.items()) {
     const int obj_id = number_of(item.key());
     if (obj_id < 0) fail(file, "'" + item.key() + "' is no obj_id");
     truth.objects[obj_id] =
