@@ -139,7 +139,8 @@ void read_scene(const fs::path& folder, int scene_id, GroundTruth& truth) {
 
 void read_objects(const fs::path& folder, GroundTruth& truth) {
   const fs::path file = folder / "models_info.json";
-  for (const auto& item : read_json(file).items()) {
+  const json infos = read_json(file);
+  for (const auto& item : infos.items()) {
     const int obj_id = number_of(item.key());
     if (obj_id < 0) fail(file, "'" + item.key() + "' is no obj_id");
     truth.objects[obj_id] =
