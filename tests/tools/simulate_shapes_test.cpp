@@ -41,8 +41,7 @@ TEST_CASE("surface nets of a sphere: on it, closed, outward", "[simulate]") {
   CHECK(volume(mesh) == Approx(4.18879).epsilon(0.02));
 }
 
-TEST_CASE("every shape is closed, outward, of the size asked for, and no two are alike",
-          "[simulate]") {
+TEST_CASE("every shape is closed, outward and of the size asked for", "[simulate]") {
   REQUIRE(shape_names().size() >= 5);
   for (const std::string& name : shape_names()) {
     INFO(name);
