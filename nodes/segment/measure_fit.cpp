@@ -12,6 +12,8 @@
 namespace posevote {
 namespace {
 
+constexpr double kConvincing = 0.1;  // inlier fraction x relief: full view 0.3, flat patch 0.002
+
 enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
 
 struct Judged {
@@ -25,7 +27,8 @@ Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& v
   if (!scan.faces_sensor(p)) return {};
   if (const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, tolerance))
     return {Verdict::kSupported,
-            static_cast<double>((p.point - partner->point).dot(partner->normal)), p.normal};
+            static_cast<double>((p.point - partner->point).dot(partner->normal)),
+            partner->normal};
   const float measured = view.measured_range(p.point);
   if (measured == 0) return {Verdict::kUnseen};
   const float before = measured - (p.point - viewpoint).norm();
@@ -83,7 +86,7 @@ double fit_score(const Fit& fit) {
   const double against = static_cast<double>(fit.contradicted) +
                          0.5 * static_cast<double>(fit.mismatched + fit.unseen);
   const double agreement = supported / (supported + against);
-  const double evidence = 1 - std::exp(-fit.inlier_fraction / 0.1);
+  const double evidence = 1 - std::exp(-fit.inlier_fraction * fit.relief / kConvincing);
   return agreement * evidence;
 }
 

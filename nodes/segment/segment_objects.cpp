@@ -30,7 +30,7 @@ constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_d
 
 struct Params {
   int max_instances = 1;
-  int candidates = 30;
+  int candidates = 100;
   double nms = 0.2;
   double min_density = 3;
   double min_score = 0.2;
@@ -125,7 +125,7 @@ const auto registered =
         .param("max_instances", &Params::max_instances, "", "Instances per object, at most.",
                graph::in_range(1, 1000))
         .param("candidates", &Params::candidates, "",
-               "Densest modes that are compared for each instance; 1: only the densest.",
+               "Densest modes of which each instance is chosen; 1: the densest, as in the paper.",
                graph::in_range(1, 10000))
         .param("nms", &Params::nms, "x diagonal",
                "Modes of one object lie farther apart than this share of its bounding box.",
