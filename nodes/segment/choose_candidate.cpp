@@ -10,12 +10,13 @@
 namespace posevote {
 namespace {
 
-constexpr double kBeyondDoubt = 0.6;   // score at which no other mode is looked at
-constexpr std::size_t kFinalists = 5;  // refined by ICP
+constexpr double kBeyondDoubt = 0.6;    // score at which no other mode is looked at
+constexpr std::size_t kFinalists = 5;   // refined by ICP
 constexpr Eigen::Index kGlance = 2000;  // model points that judge a mode before ICP
 constexpr double kKeptSupport = 0.95;   // ICP may lose a few chance partners at the silhouette
 
-/// Works on the first candidate and, unless it then fits beyond doubt, on all others; the best first.
+/// Works on the first candidate and, unless it then fits beyond doubt, on all others; the best
+/// first.
 template <class Work>
 void work_on(std::vector<Candidate>& candidates, const Work& work) {
   if (candidates.empty()) return;
@@ -74,17 +75,16 @@ std::optional<Candidate> choose_candidate(const LiveVotes& object, const ScanSta
                                           const CandidateParams& params) {
   const Model& model = *object.votes->model;
   std::vector<Candidate> candidates;
-  for (const PoseMode& mode : separate_modes(
-           *object.votes, best_votes(*object.votes, object.density, params.min_density), taken,
-           params.nms_radius, static_cast<std::size_t>(params.candidates)))
+  for (const PoseMode& mode :
+       separate_modes(*object.votes, best_votes(*object.votes, object.density, params.min_density),
+                      taken, params.nms_radius, static_cast<std::size_t>(params.candidates)))
     candidates.emplace_back().mode = mode;
   work_on(candidates, [&](Candidate& candidate) {
     judge_at_a_glance(candidate, object, scan, params.tolerance);
   });
   candidates.resize(std::min(candidates.size(), kFinalists));
-  work_on(candidates, [&](Candidate& candidate) {
-    refine_candidate(candidate, model.cloud, scan, params);
-  });
+  work_on(candidates,
+          [&](Candidate& candidate) { refine_candidate(candidate, model.cloud, scan, params); });
   for (const Candidate& candidate : candidates)
     if (keeps_clear(candidate, model.center, taken, params.nms_radius)) return candidate;
   return std::nullopt;

@@ -32,7 +32,8 @@ std::vector<char> explain_points(const Cloud& model, const PointGrid& model_grid
     if (!((point - ball.center).norm() <= ball.radius)) return;
     const Eigen::Vector3f normal =
         T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
-    // Any model point of the right side will do: of a thin wall the wrong side may be the nearer one.
+    // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
+    // one.
     bool near = false;
     model_grid.for_each_within(point, distance, [&](std::uint32_t neighbour, float) {
       near = near || model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;

@@ -2,9 +2,9 @@
 // Mean shift of a mode on SE(3). The argmax is one of the votes, so it stands on the votes' raster
 // (6 deg); the weighted mean of its neighbourhood does not. Translations: weighted mean. Rotations:
 // the eigenvector of the largest eigenvalue of sum w q q^T (Markley, Cheng, Crassidis, Oshman,
-// "Averaging Quaternions", 2007), which does not mind the quaternions' signs. A shift that would lower
-// the density is not taken (the cut kernel does not promise ascent), so the result never is a worse
-// mode than the start. Cost: a few neighbourhood queries.
+// "Averaging Quaternions", 2007), which does not mind the quaternions' signs. A shift that would
+// lower the density is not taken (the cut kernel does not promise ascent), so the result never is a
+// worse mode than the start. Cost: a few neighbourhood queries.
 #pragma once
 
 #include <Eigen/Geometry>

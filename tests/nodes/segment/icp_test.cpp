@@ -34,8 +34,7 @@ Cloud noisy_plane(float half_width, float noise, float tilt) {
   for (int i = 0; i < side * side; ++i) {
     cloud.points.row(i) << static_cast<float>(i % side) * kResolution - half_width,
         static_cast<float>(i / side) * kResolution - half_width, 1.0F + noise * uniform();
-    cloud.normals.row(i) =
-        Eigen::RowVector3f(tilt * uniform(), tilt * uniform(), -1).normalized();
+    cloud.normals.row(i) = Eigen::RowVector3f(tilt * uniform(), tilt * uniform(), -1).normalized();
   }
   return cloud;
 }

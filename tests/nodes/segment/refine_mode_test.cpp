@@ -12,8 +12,8 @@ using namespace posevote;
 namespace {
 
 const Eigen::Vector3f kCenter(0.1F, -0.2F, 0.7F);
-const Eigen::Quaternionf kRotation(
-    Eigen::AngleAxisf(2.0F, Eigen::Vector3f(1, -2, 0.5F).normalized()));
+const Eigen::Quaternionf kRotation(Eigen::AngleAxisf(2.0F,
+                                                     Eigen::Vector3f(1, -2, 0.5F).normalized()));
 
 void add_vote(VoteSet& votes, const Eigen::Vector3f& t, const Eigen::Quaternionf& q, float sign) {
   votes.tx.push_back(t.x());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
+
+#include <catch2/catch.hpp>
 #include <set>
 
 #include "nodes/data/detections.hpp"
@@ -25,8 +26,8 @@ void add_object(Inputs& inputs, const Correspondences& matches) {
   const auto votes = std::make_shared<const VoteSet>(
       run_node<VoteSet>("cast_votes", {}, matches, inputs.features));
   inputs.votes.slots.push_back(votes);
-  inputs.densities.slots.push_back(std::make_shared<const VoteDensity>(
-      run_node<VoteDensity>("estimate_density", {}, *votes)));
+  inputs.densities.slots.push_back(
+      std::make_shared<const VoteDensity>(run_node<VoteDensity>("estimate_density", {}, *votes)));
 }
 
 Inputs inputs_of(const std::vector<Placed>& bodies, const std::vector<int>& shapes,
@@ -92,7 +93,8 @@ TEST_CASE("two instances of one object are both found", "[segment]") {
 }
 
 TEST_CASE("an object that is not there is not found", "[segment]") {
-  const std::vector<Detection> found = segment(inputs_of({kLeft}, {1, 3}), {{"max_instances", "3"}});
+  const std::vector<Detection> found =
+      segment(inputs_of({kLeft}, {1, 3}), {{"max_instances", "3"}});
   REQUIRE(found.size() == 1);
   CHECK(found.front().obj_id == 1);
 }
@@ -150,7 +152,8 @@ TEST_CASE("objects with more correspondences come first", "[segment]") {
   CHECK(found.front().obj_id == (first_has_more ? 1 : 2));
 }
 
-TEST_CASE("what the first object explains is gone for the second as if never matched", "[segment]") {
+TEST_CASE("what the first object explains is gone for the second as if never matched",
+          "[segment]") {
   const Inputs inputs = inputs_of({kLeft, kRight}, {1, 2});
   const std::vector<Detection> both = segment(inputs);
   REQUIRE(both.size() == 2);
@@ -177,8 +180,8 @@ TEST_CASE("what the first object explains is gone for the second as if never mat
   }
   CHECK(left.scene_feature.size() < all.scene_feature.size());
   rest.votes.slots = {std::make_shared<const VoteSet>(left)};
-  rest.densities.slots = {std::make_shared<const VoteDensity>(
-      run_node<VoteDensity>("estimate_density", {}, left))};
+  rest.densities.slots = {
+      std::make_shared<const VoteDensity>(run_node<VoteDensity>("estimate_density", {}, left))};
   const std::vector<Detection> alone = segment(rest);
   REQUIRE(alone.size() == 1);
   CHECK(shift_between(alone[0].T_scene_model, both[1].T_scene_model) < 1e-6);
@@ -214,7 +217,7 @@ TEST_CASE("a turned scan gives turned poses", "[segment]") {
 
 TEST_CASE("one and two threads give the same bytes", "[segment]") {
   const Inputs inputs = inputs_of({kLeft, kRight}, {1, 2, 3}, 0.8);
-  const Values values{{"max_instances", "2"}, {"min_score", "0"}, {"candidates", "20"}};
+  const Values values{{"max_instances", "2"}, {"min_score", "0"}, {"candidates", "8"}};
   std::vector<std::vector<Detection>> runs;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -233,7 +236,7 @@ TEST_CASE("one and two threads give the same bytes", "[segment]") {
 
 TEST_CASE("numbers are finite and in range even where all matches are wrong", "[segment]") {
   const Inputs inputs = inputs_of({kLeft, kRight}, {1, 2, 4}, 1.0);
-  const Values values{{"max_instances", "4"}, {"min_score", "0"}, {"min_density", "0"}};
+  const Values values{{"max_instances", "2"}, {"candidates", "10"}, {"min_score", "0"}};
   for (const Detection& d : segment(inputs, values)) {
     CHECK(d.T_scene_model.matrix().allFinite());
     CHECK(d.T_scene_model.linear().determinant() == Approx(1));
@@ -261,4 +264,19 @@ TEST_CASE("thresholds on density and score reject", "[segment]") {
   REQUIRE(segment(inputs).size() == 1);
   CHECK(segment(inputs, {{"min_density", "100000"}}).empty());
   CHECK(segment(inputs, {{"min_score", "1"}}).empty());
+}
+
+TEST_CASE("lengths and normals that cannot be are refused", "[segment]") {
+  Inputs inputs;
+  inputs.scan = scan_of({kLeft});
+  inputs.features = features_of(inputs.scan);
+  for (const float resolution : {0.0F, -1.0F, std::nanf(""), HUGE_VALF})
+    CHECK_THROWS_WITH(run_node<Detections>("segment_objects", {}, inputs.votes, inputs.densities,
+                                           inputs.features, inputs.scan, Scale{resolution}),
+                      Catch::Contains("resolution"));
+  inputs.scan.normals.resize(0, 3);
+  CHECK_THROWS_WITH(segment(inputs), Catch::Contains("the scan has"));
+  inputs.scan = scan_of({kLeft});
+  inputs.features.normals.resize(1, 3);
+  CHECK_THROWS_WITH(segment(inputs), Catch::Contains("the feature set has"));
 }
