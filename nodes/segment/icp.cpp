@@ -15,13 +15,13 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr Eigen::Index kMaxSamples = 4000;  // model points; about half of them face the sensor
+constexpr Eigen::Index kMaxSamples = 3000;  // model points; about half of them face the sensor
 constexpr std::size_t kFewestPairs = 10;
 constexpr double kShrink = 0.85;      // of the search radius per iteration
 constexpr double kUnobserved = 1e-4;  // eigenvalue, as a share of the pairs' weight: not moved at all
 constexpr double kDamping = 0.01;     // likewise: weakly held directions take several small steps
 constexpr double kMaxTurn = 0.2;      // [rad] per iteration
-constexpr double kStill = 1e-3;       // of the final search radius: a shorter step ends the search
+constexpr double kStill = 2e-3;       // of the final search radius: a shorter step ends the search
 
 /// A posed model point on its scan point's tangent plane.
 struct Pair {

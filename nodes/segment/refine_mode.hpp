@@ -11,17 +11,9 @@
 #include <vector>
 
 #include "nodes/data/votes.hpp"
+#include "nodes/segment/find_modes.hpp"
 
 namespace posevote {
-
-/// A pose as votes express it.
-struct PoseMode {
-  Eigen::Vector3f center = Eigen::Vector3f::Zero();  ///< where the model's centre lands [m]
-  Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();
-};
-
-/// The pose of one vote.
-PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote);
 
 /// The pose shifted to a place where it is the mean of its neighbourhood. Only votes with alive[v]
 /// count.

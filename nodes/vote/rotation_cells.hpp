@@ -20,14 +20,14 @@ namespace posevote {
 /// Chart and levels of one rotation, chart in the highest byte.
 using RotationCode = std::uint32_t;
 
-/// The code of a unit quaternion (w, x, y, z).
-RotationCode rotation_code(const VotePoint& vote);
+/// The code of a vote's unit quaternion. Turns the quaternion's sign to that of its chart.
+RotationCode encode_rotation(VotePoint& vote);
 
 /// The ball of rotations around a quaternion that a kernel can reach, as constants.
 struct RotationReach {
   double sine;         ///< of half the angle, widened so that rounding cannot lose a neighbour
   double chart_limit;  ///< a chart is out of reach where the centre's component is below this
-  int cells_per_axis;  ///< of a grid whose cells are about half as wide as the reach
+  int cells_per_axis;  ///< measured: finer grids cut rows too short for wide vectors
 };
 
 RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth);

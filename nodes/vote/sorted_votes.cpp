@@ -90,14 +90,14 @@ VotePoint vote_point(const VoteSet& votes, std::size_t v) {
 SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   const std::size_t count = votes.tx.size();
   std::vector<TranslationCell> cells(count);
-  std::vector<RotationCode> codes(count);
+  std::vector<SortedVote> encoded(count);
   std::vector<char> usable(count);
   graph::parallel_for(count, 4096, [&](std::size_t v) {
-    const VotePoint point = vote_point(votes, v);
-    usable[v] = is_usable(point, bandwidth);
+    encoded[v].point = vote_point(votes, v);
+    usable[v] = is_usable(encoded[v].point, bandwidth);
     if (!usable[v]) return;
-    cells[v] = translation_cell(point, bandwidth);
-    codes[v] = rotation_code(point);
+    cells[v] = translation_cell(encoded[v].point, bandwidth);
+    encoded[v].code = encode_rotation(encoded[v].point);
   });
   std::vector<std::uint32_t> order;
   order.reserve(count);
@@ -110,7 +110,7 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   sorted.bandwidth = bandwidth;
   sorted.votes.reserve(order.size());
   sorted.numbers.reserve(order.size());
-  for (const std::uint32_t v : order) append(sorted, cells[v], {vote_point(votes, v), codes[v]}, v);
+  for (const std::uint32_t v : order) append(sorted, cells[v], encoded[v], v);
   sorted.cell_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
   return sorted;
 }
@@ -125,7 +125,7 @@ SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep) 
   return selected;
 }
 
-const std::vector<VoteRun>& CellSearch::around(const TranslationCell& cell) {
+const std::vector<VoteRun>& CellSearch::around(const TranslationCell& cell) & {
   runs_.clear();
   for (std::int32_t row = 0; row < 9; ++row) {
     TranslationCell wanted{cell.x + row / 3 - 1, cell.y + row % 3 - 1, cell.z - 1};

@@ -20,7 +20,7 @@ struct TranslationCell {
   auto operator<=>(const TranslationCell&) const = default;
 };
 
-/// A vote as the searches read it: 32 bytes, half a cache line.
+/// A vote as the searches read it, its quaternion with the sign of its chart. Half a cache line.
 struct SortedVote {
   VotePoint point;
   RotationCode code;
@@ -61,7 +61,7 @@ class CellSearch {
   explicit CellSearch(const SortedVotes& votes) : votes_(&votes) {}
 
   /// The non-empty runs around a cell, ascending.
-  const std::vector<VoteRun>& around(const TranslationCell& cell);
+  const std::vector<VoteRun>& around(const TranslationCell& cell) &;
 
  private:
   const SortedVotes* votes_;

@@ -135,8 +135,8 @@ inline std::pair<int, int> ray_cell(const Eigen::RowVector3f& p) {
 
 }  // namespace detail
 
-/// What a sensor at the origin sees of the bodies and a wall at z = 1.3 m: points that face it and that
-/// nothing hides. `with_wall` false leaves the wall out.
+/// What a sensor at the origin sees of the bodies and a wall at z = 1.3 m: points that face it and
+/// that nothing hides. `with_wall` false leaves the wall out.
 inline Cloud scan_of(const std::vector<Placed>& bodies, bool with_wall = true) {
   Cloud all, scan;
   all.points.resize(0, 3);

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/live_votes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "nodes/vote/pose_index.hpp"
+#include "tests/support/bumpy_scene.hpp"
+#include "tests/support/run_node.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+struct Scene {
+  FeatureSet features;
+  Correspondences matches;
+  VoteSet votes;
+  VoteDensity density;
+};
+
+Scene make_scene() {
+  const Placed body{1, pose(0, 0, 0.8, 0.7)};
+  Scene scene;
+  const Cloud scan = scan_of({body});
+  scene.features = features_of(scan, 12);
+  scene.matches = match_truly(bumpy_model(1), scene.features, {body}, 0.5, 30);
+  scene.votes = run_node<VoteSet>("cast_votes", {}, scene.matches, scene.features);
+  const auto index = std::make_shared<PoseIndex>(scene.votes, Bandwidth{});
+  scene.density = {index->densities(), index};
+  return scene;
+}
+
+/// The densities if the votes that are not alive had never been cast.
+std::vector<double> voted_anew(const VoteSet& all, const std::vector<char>& alive) {
+  VoteSet rest;
+  rest.model = all.model;
+  rest.votes_per_correspondence = 1;
+  const auto column = [&alive](const std::vector<float>& from) {
+    std::vector<float> kept;
+    for (std::size_t v = 0; v < from.size(); ++v)
+      if (alive[v]) kept.push_back(from[v]);
+    return kept;
+  };
+  rest.tx = column(all.tx), rest.ty = column(all.ty), rest.tz = column(all.tz);
+  rest.qw = column(all.qw), rest.qx = column(all.qx), rest.qy = column(all.qy);
+  rest.qz = column(all.qz);
+  rest.scene_feature.assign(rest.tx.size(), 0);
+  return PoseIndex(rest, Bandwidth{}).densities();
+}
+
+}  // namespace
+
+TEST_CASE("what is explained step by step leaves the densities of voting anew", "[segment]") {
+  const Scene scene = make_scene();
+  LiveVotes object = all_votes(scene.votes, scene.density);
+  std::vector<char> explained(static_cast<std::size_t>(scene.features.points.rows()), 0);
+  for (const std::size_t every : {7U, 3U, 2U}) {
+    for (std::size_t i = 0; i < explained.size(); i += every) explained[i] = 1;
+    remove_explained(object, explained);
+    const std::vector<double> expected = voted_anew(scene.votes, object.alive);
+    REQUIRE(!expected.empty());
+    std::vector<double> left;
+    double dead = 0;
+    for (std::size_t v = 0; v < object.density.size(); ++v) {
+      CHECK_FALSE((object.alive[v] && explained[scene.votes.scene_feature[v / 60]]));
+      if (object.alive[v])
+        left.push_back(object.density[v]);
+      else
+        dead += std::abs(object.density[v]);
+    }
+    CHECK(dead == 0);
+    CHECK(left == expected);  // to the last bit: weights are multiples of 2^-25
+  }
+}
+
+TEST_CASE("all explained leaves nothing", "[segment]") {
+  const Scene scene = make_scene();
+  LiveVotes object = all_votes(scene.votes, scene.density);
+  remove_explained(object, std::vector<char>(
+                               static_cast<std::size_t>(scene.features.points.rows()), 1));
+  for (const double density : object.density) CHECK(density == 0);
+}
+
+TEST_CASE("inputs that do not belong together are refused", "[segment]") {
+  const Scene scene = make_scene();
+  const auto check = [&scene](const VoteSet& votes, const VoteDensity& density, float resolution) {
+    check_inputs({{std::make_shared<const VoteSet>(votes)}},
+                 {{std::make_shared<const VoteDensity>(density)}}, scene.features, {resolution});
+  };
+  CHECK_NOTHROW(check(scene.votes, scene.density, kResolution));
+  CHECK_THROWS_WITH(check(scene.votes, scene.density, 0), Catch::Contains("resolution is 0"));
+  CHECK_THROWS_WITH(check(scene.votes, scene.density, std::nanf("")), Catch::Contains("nan"));
+  CHECK_THROWS_AS(check_inputs({{std::make_shared<const VoteSet>(scene.votes)}}, {},
+                               scene.features, {kResolution}),
+                  std::runtime_error);
+  VoteSet broken = scene.votes;
+  broken.qz.pop_back();
+  CHECK_THROWS_WITH(check(broken, scene.density, kResolution), Catch::Contains("bumpy1"));
+  broken = scene.votes;
+  broken.scene_feature[3] = 1000000;
+  CHECK_THROWS_WITH(check(broken, scene.density, kResolution),
+                    Catch::Contains("scene feature 1000000"));
+  broken = scene.votes;
+  broken.model = nullptr;
+  CHECK_THROWS_AS(check(broken, scene.density, kResolution), std::runtime_error);
+  broken = scene.votes;
+  broken.votes_per_correspondence = 0;
+  CHECK_THROWS_AS(check(broken, scene.density, kResolution), std::runtime_error);
+  VoteDensity short_density = scene.density;
+  short_density.density.pop_back();
+  CHECK_THROWS_AS(check(scene.votes, short_density, kResolution), std::runtime_error);
+  short_density = scene.density;
+  short_density.index = nullptr;
+  CHECK_THROWS_WITH(check(scene.votes, short_density, kResolution), Catch::Contains("index"));
+}

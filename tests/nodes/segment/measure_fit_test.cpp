@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/measure_fit.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/bumpy_scene.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+constexpr float kTolerance = 2 * kResolution;
+
+Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_scene_model) {
+  const RangeView view(scan, kResolution);
+  const ScanSurface surface(scan, view.usable(), kTolerance);
+  return measure_fit(model, surface, view, T_scene_model, kTolerance);
+}
+
+const Placed kBody{1, pose(0, 0.02, 0.8, 0.7)};
+
+}  // namespace
+
+TEST_CASE("at the true pose nearly all that faces the sensor is supported", "[segment]") {
+  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({kBody}), kBody.T_scene_model);
+  CHECK(fit.facing > 1000);
+  CHECK(fit.inlier_fraction > 0.9);
+  CHECK(fit.contradicted == 0);
+  CHECK(fit.rmse < 0.1 * kResolution);
+  CHECK(fit_score(fit) > 0.9);
+}
+
+TEST_CASE("a body before what was measured is contradicted", "[segment]") {
+  const Eigen::Isometry3d before = pose(0, 0, 1.0, 0.7);
+  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), before);
+  CHECK(fit.contradicted == fit.facing);
+  CHECK(fit_score(fit) == 0);
+}
+
+TEST_CASE("a body behind what was measured is hidden", "[segment]") {
+  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), pose(0, 0, 1.5, 0.7));
+  CHECK(fit.hidden == fit.facing);
+  CHECK(fit_score(fit) == 0);
+}
+
+TEST_CASE("a body where nothing was measured is unseen", "[segment]") {
+  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({kBody}, false), pose(0.5, 0, 0.8, 0));
+  CHECK(fit.unseen == fit.facing);
+  CHECK(fit_score(fit) == 0);
+}
+
+TEST_CASE("a surface that looks elsewhere supports nothing", "[segment]") {
+  Cloud scan = scan_of({kBody});
+  for (Eigen::Index i = 0; i < scan.normals.rows(); ++i)
+    scan.normals.row(i) = Eigen::RowVector3f(1, 0, -0.2F).normalized();
+  const Fit fit = fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model);
+  CHECK(fit.mismatched > fit.supported);
+}
+
+TEST_CASE("hidden parts cost a true pose little, a wrong pose scores far less", "[segment]") {
+  const Placed before{3, pose(0.03, 0.03, 0.6, 0.2)};
+  const Cloud scan = scan_of({kBody, before});
+  const Cloud model = bumpy_model(1)->cloud;
+  const Fit fit = fit_of(model, scan, kBody.T_scene_model);
+  CHECK(fit.inlier_fraction < 0.7);
+  const double score = fit_score(fit);
+  CHECK(score > 0.5);
+  for (int turn = 1; turn < 8; ++turn) {
+    const Eigen::Isometry3d wrong = kBody.T_scene_model * pose(0, 0, 0, 0.785 * turn);
+    CHECK(fit_score(fit_of(model, scan, wrong)) < 0.5 * score);
+  }
+}
+
+TEST_CASE("a flat patch is weak evidence, however well it fits", "[segment]") {
+  const Cloud patch = test::detail::wall(1.0F, 0.05F), scan = test::detail::wall(1.0F, 0.3F);
+  const Fit fit = fit_of(patch, scan, Eigen::Isometry3d::Identity());
+  CHECK(fit.inlier_fraction == 1);
+  CHECK(fit.relief < 1e-6);
+  CHECK(fit_score(fit) < 0.05);
+}
+
+TEST_CASE("a sample of the model gives nearly the same fit", "[segment]") {
+  const Cloud scan = scan_of({kBody}), model = bumpy_model(1)->cloud;
+  const RangeView view(scan, kResolution);
+  const ScanSurface surface(scan, view.usable(), kTolerance);
+  const Fit all = measure_fit(model, surface, view, kBody.T_scene_model, kTolerance);
+  const Fit some = measure_fit(model, surface, view, kBody.T_scene_model, kTolerance, 800);
+  CHECK(some.facing < all.facing / 4);
+  CHECK(fit_score(some) == Approx(fit_score(all)).margin(0.05));
+}
+
+TEST_CASE("a cloud that is no view is judged without facing or free space", "[segment]") {
+  const Cloud model = bumpy_model(1)->cloud;
+  const Fit fit = fit_of(model, model, Eigen::Isometry3d::Identity());
+  CHECK(fit.facing == static_cast<std::size_t>(model.points.rows()));
+  CHECK(fit.supported == fit.facing);
+  CHECK(fit.rmse == Approx(0).margin(1e-7));
+}
+
+TEST_CASE("nothing to judge scores 0", "[segment]") {
+  Cloud empty;
+  empty.points.resize(0, 3);
+  empty.normals.resize(0, 3);
+  CHECK(fit_score(fit_of(empty, scan_of({kBody}), kBody.T_scene_model)) == 0);
+  CHECK(fit_score(fit_of(bumpy_model(1)->cloud, empty, kBody.T_scene_model)) == 0);
+}
