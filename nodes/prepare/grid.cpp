@@ -43,8 +43,9 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
   }
   origin_ = low;
   const double extent = (high.cast<double>() - low.cast<double>()).maxCoeff();
-  // Row numbers fill 32 bits of a key: a cell may not be finer than that (and not NaN).
-  cell_ = std::max({1e-9F, static_cast<float>(extent / 1e9), cell});
+  // Row numbers fill 32 bits of a key: a cell may not be finer than that (nor NaN, nor infinite).
+  cell_ = std::max(
+      {1e-9F, static_cast<float>(extent / 1e9), std::min(cell, static_cast<float>(extent))});
   last_row_ = std::floor(extent / cell_) + 1;
 
   std::vector<Entry> entries;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
@@ -25,12 +26,14 @@ struct Params {
 std::uint32_t most_central(const PointMatrix& points, const Voxels& voxels, std::size_t voxel) {
   const Eigen::RowVector3d centroid = voxels.centroid(points, voxel);
   const std::span<const std::uint32_t> members = voxels[voxel];
-  const auto distance = [&](std::uint32_t i) {
-    return (points.row(i).cast<double>() - centroid).squaredNorm();
+  // Of two equally central points the one with smaller coordinates, wherever it stands in the
+  // input.
+  const auto rank = [&](std::uint32_t i) {
+    const double distance = (points.row(i).cast<double>() - centroid).squaredNorm();
+    return std::tuple(distance, points(i, 0), points(i, 1), points(i, 2));
   };
-  return *std::min_element(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return distance(a) < distance(b);
-  });
+  return *std::min_element(members.begin(), members.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
 FeaturePoints pick_feature_points(const Cloud& cloud, const Scale& scale, const Params& params) {
