@@ -42,6 +42,9 @@ std::string type_name(const std::type_info& type) {
   std::string name = text ? text.get() : type.name();
   for (std::size_t at = 0; (at = name.find("posevote::", at)) != std::string::npos;)
     name.erase(at, std::string("posevote::").size());
+  // "std::vector<X, std::allocator<X> >" is what a user reads as "vector<X>".
+  if (const std::size_t allocator = name.find(", std::allocator"); allocator != std::string::npos)
+    name = name.substr(name.starts_with("std::") ? 5 : 0, allocator - 5) + ">";
   return name;
 }
 

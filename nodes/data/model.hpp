@@ -29,4 +29,11 @@ struct ModelLibrary {
   std::shared_ptr<const DescriptorIndex> index;
 };
 
+/// The model of that obj_id, or null.
+inline const Model* find_model(const ModelLibrary& library, int obj_id) {
+  for (const auto& model : library.models)
+    if (model->obj_id == obj_id) return model.get();
+  return nullptr;
+}
+
 }  // namespace posevote

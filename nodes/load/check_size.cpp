@@ -67,9 +67,10 @@ Cloud check_size(const Cloud& scan, const ModelLibrary& library, const Params& p
   if (size >= params.smallest * smallest && size <= params.largest * largest) return scan;
   const std::string wrong = size > largest ? "mm read as m, or models' m read as mm"
                                            : "m read as mm, or models' mm read as m";
-  throw std::runtime_error("the scan's diagonal is " + metres(size) + ", the models' " +
-                           metres(smallest) + " to " + metres(largest) +
-                           ": check load_scene.unit and load_models.unit (" + wrong + "?)");
+  throw std::runtime_error(
+      "the scan's diagonal is " + metres(size) + ", the models' " + metres(smallest) + " to " +
+      metres(largest) + ": check load_scene.unit (for images, depth_scale) and load_models.unit (" +
+      wrong + "?)");
 }
 
 const auto registered =

@@ -37,7 +37,7 @@ PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
   });
   std::string all;
   for (const std::string& problem : problems)
-    if (!problem.empty()) all += (all.empty() ? "" : "\n") + problem;
+    if (!problem.empty()) all += (all.empty() ? "" : "; ") + problem;
   if (!all.empty()) throw std::runtime_error(all);
   return models;
 }

@@ -49,10 +49,17 @@ PlyFormat read_format(TextScanner& in) {
           in_quotes(word));
 }
 
+/// Names of elements appear in messages, which must stay short and printable.
+bool is_plain_name(std::string_view name) {
+  constexpr std::size_t kLongest = 40;
+  return !name.empty() && name.size() <= kLongest &&
+         std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
 PlyElement read_element(TextScanner& in, const PlyHeader& header) {
   PlyElement element;
   element.name = in.word();
-  if (element.name.empty()) in.fail("an element without a name");
+  if (!is_plain_name(element.name)) in.fail("an element of the name " + in_quotes(element.name));
   if (header.elements.size() == kMostEntries) in.fail("too many elements");
   if (header.find(element.name)) in.fail("a second element " + in_quotes(element.name));
   element.count = read_count(in, element.plural());

@@ -2,6 +2,8 @@
 // Reads OFF, with normals (NOFF) and colours (COFF, and behind the indices of a face), which are
 // skipped. One vertex or face a line. Some files (ModelNet) have the counts in the keyword's line,
 // even without a blank between: "OFF490 518 0".
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "nodes/load/file_bytes.hpp"

@@ -34,6 +34,8 @@ std::vector<Batch> make_batches(const SortedVotes& queries) {
 struct Box {
   std::array<float, 3> low, high;
 
+  /// Never above that from any point inside: rounding is monotone, and the order of operations that
+  /// of the kernel's squared_distance.
   float squared_distance(const VotePoint& p) const {
     const float dx = std::max({low[0] - p.tx, p.tx - high[0], 0.0F});
     const float dy = std::max({low[1] - p.ty, p.ty - high[1], 0.0F});
@@ -108,20 +110,18 @@ void BatchWorker::collect(const Batch& batch) {
   std::size_t total = 0;
   for (const VoteRun& run : runs) total += run.end - run.begin;
   if (total == 0) return;
-  // The box's distance is a lower bound of the predicate's up to rounding.
   const Box box = bounding_box(queries_, batch.begin, batch.end);
-  const float limit = kernel_.max_dt2 * (1 + 1e-5F);
   near_.resize(total);
   std::size_t count = 0;
   for (const VoteRun& run : runs)
     for (std::uint32_t i = run.begin; i < run.end; ++i) {
       near_[count] = i;
-      count += box.squared_distance(others_.votes[i].point) <= limit;
+      count += box.squared_distance(others_.votes[i].point) <= kernel_.max_dt2;
     }
   near_.resize(count);
 }
 
-/// About one other per rotation cell is enough; for few queries sorting does not pay at all.
+/// Cells beyond half the number of others are wasted; for few queries sorting does not pay at all.
 void BatchWorker::choose_grid(std::size_t query_count) {
   const auto count = static_cast<double>(near_.size());
   grid_ = 0;
@@ -183,13 +183,15 @@ std::uint64_t BatchWorker::sum_at(const SortedVote& query) {
 }
 
 void BatchWorker::add_rows(const RotationBox& box) {
-  for (std::uint32_t a = coarse(box.low[0]); a <= coarse(box.high[0]); ++a)
-    for (std::uint32_t b = coarse(box.low[1]); b <= coarse(box.high[1]); ++b) {
-      const std::uint32_t first = rotation_cell(box.chart, a, b, coarse(box.low[2]));
-      const std::uint32_t last = rotation_cell(box.chart, a, b, coarse(box.high[2]));
-      const ScanRange range{cell_begin_[first], cell_begin_[last + 1], box.sign};
-      if (range.begin < range.end) ranges_.push_back(range);
-    }
+  const std::uint32_t a_end = coarse(box.high[0]) + 1, b_end = coarse(box.high[1]) + 1;
+  const std::uint32_t b_begin = coarse(box.low[1]);
+  const std::uint32_t row_length = coarse(box.high[2]) + 1 - coarse(box.low[2]);
+  for (std::uint32_t a = coarse(box.low[0]); a < a_end; ++a) {
+    const std::uint32_t* first =
+        &cell_begin_[rotation_cell(box.chart, a, b_begin, coarse(box.low[2]))];
+    for (std::uint32_t b = b_begin; b < b_end; ++b, first += grid_)
+      if (first[0] < first[row_length]) ranges_.push_back({first[0], first[row_length], box.sign});
+  }
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using Units = hn::RebindToUnsigned<Floats>;
 using F = hn::Vec<Floats>;
 using U = hn::Vec<Units>;
 
-/// weight_units of kernel.hpp. The result is a whole number below 2^25 + 1.
+/// weight_units of kernel.hpp. The result is a whole number, at most 2^25.
 HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2) {
   const Floats d;
   F s = hn::Set(d, k.angle[4]);
@@ -32,69 +32,101 @@ HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2) {
   return hn::BitCast(Units(), hn::ConvertTo(hn::RebindToSigned<Floats>(), units));
 }
 
+/// Squared distances of neighbours, packed. Few votes that are scanned are neighbours: to weigh
+/// them apart, lane by lane full, spares a branch per block that no processor can foresee.
+class Neighbours {
+ public:
+  explicit Neighbours(const Kernel& kernel) : kernel_(kernel) {}
+
+  HWY_INLINE void add(F dt2, F e2, hn::Mask<Floats> near) {
+    const Floats d;
+    hn::StoreU(hn::Compress(dt2, near), d, dt2_ + count_);
+    hn::StoreU(hn::Compress(e2, near), d, e2_ + count_);
+    count_ += hn::CountTrue(d, near);
+    if (HWY_UNLIKELY(count_ > kBlocks * hn::Lanes(d))) weigh();
+  }
+
+  HWY_INLINE std::uint64_t total() {
+    weigh();
+    return total_;
+  }
+
+ private:
+  static constexpr std::size_t kBlocks = 32;  // 33 x 2^25 fits into a lane of 32 bits
+
+  HWY_INLINE void weigh() {
+    const Floats d;
+    hn::StoreU(hn::Zero(d), d, dt2_ + count_);  // the last block's spare lanes are weighed too
+    hn::StoreU(hn::Zero(d), d, e2_ + count_);
+    U sum = hn::Zero(Units());
+    for (std::size_t i = 0; i < count_; i += hn::Lanes(d)) {
+      const auto valid = hn::FirstN(Units(), std::min(hn::Lanes(d), count_ - i));
+      const U weights = weight_units(kernel_, hn::Load(d, dt2_ + i), hn::Load(d, e2_ + i));
+      sum = hn::Add(sum, hn::IfThenElseZero(valid, weights));
+    }
+    HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
+    hn::Store(sum, Units(), lanes);
+    for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) total_ += lanes[i];
+    count_ = 0;
+  }
+
+  const Kernel& kernel_;
+  std::uint64_t total_ = 0;
+  std::size_t count_ = 0;
+  HWY_ALIGN float dt2_[(kBlocks + 2) * HWY_LANES(float)];
+  HWY_ALIGN float e2_[(kBlocks + 2) * HWY_LANES(float)];
+};
+
 /// (a - b)^2
 HWY_INLINE F squared_difference(F a, const float* b) {
   const F difference = hn::Sub(a, hn::LoadU(Floats(), b));
   return hn::Mul(difference, difference);
 }
 
-/// Sum of the lanes of 32 bits, in 64.
-HWY_INLINE std::uint64_t sum_of_lanes(U units) {
-  HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
-  hn::Store(units, Units(), lanes);
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) sum += lanes[i];
-  return sum;
-}
+/// A query, each number in every lane.
+class Query {
+ public:
+  HWY_INLINE Query(const Kernel& k, const VotePoint& p, float sign) {
+    const Floats d;
+    tx_ = hn::Set(d, p.tx);
+    ty_ = hn::Set(d, p.ty);
+    tz_ = hn::Set(d, p.tz);
+    qw_ = hn::Set(d, sign * p.qw);
+    qx_ = hn::Set(d, sign * p.qx);
+    qy_ = hn::Set(d, sign * p.qy);
+    qz_ = hn::Set(d, sign * p.qz);
+    max_dt2_ = hn::Set(d, k.max_dt2);
+    max_e2_ = hn::Set(d, k.max_e2);
+  }
 
-struct Query {
-  F tx, ty, tz, qw, qx, qy, qz;
+  /// Compares with the votes from i on, where `valid`.
+  HWY_INLINE void compare(const VoteColumns& c, std::size_t i, hn::Mask<Floats> valid,
+                          Neighbours& neighbours) const {
+    const F xy = hn::Add(squared_difference(tx_, c.tx + i), squared_difference(ty_, c.ty + i));
+    const F dt2 = hn::Add(xy, squared_difference(tz_, c.tz + i));
+    const F wx = hn::Add(squared_difference(qw_, c.qw + i), squared_difference(qx_, c.qx + i));
+    const F yz = hn::Add(squared_difference(qy_, c.qy + i), squared_difference(qz_, c.qz + i));
+    const F e2 = hn::Add(wx, yz);
+    const auto near = hn::And(hn::Le(dt2, max_dt2_), hn::Le(e2, max_e2_));
+    neighbours.add(dt2, e2, hn::And(near, valid));
+  }
+
+ private:
+  F tx_, ty_, tz_, qw_, qx_, qy_, qz_, max_dt2_, max_e2_;
 };
 
-HWY_INLINE Query broadcast(const VotePoint& q, float sign) {
-  const Floats d;
-  return {hn::Set(d, q.tx),        hn::Set(d, q.ty),        hn::Set(d, q.tz),
-          hn::Set(d, sign * q.qw), hn::Set(d, sign * q.qx), hn::Set(d, sign * q.qy),
-          hn::Set(d, sign * q.qz)};
-}
-
-/// What the lanes from i on add to the density, where `valid`.
-HWY_INLINE U scan_block(const Kernel& k, const VoteColumns& c, const Query& q, std::size_t i,
-                        hn::Mask<Floats> valid) {
-  const Floats d;
-  const F dt2 =
-      hn::Add(hn::Add(squared_difference(q.tx, c.tx + i), squared_difference(q.ty, c.ty + i)),
-              squared_difference(q.tz, c.tz + i));
-  const F e2 =
-      hn::Add(hn::Add(squared_difference(q.qw, c.qw + i), squared_difference(q.qx, c.qx + i)),
-              hn::Add(squared_difference(q.qy, c.qy + i), squared_difference(q.qz, c.qz + i)));
-  const auto near =
-      hn::And(hn::And(hn::Le(dt2, hn::Set(d, k.max_dt2)), hn::Le(e2, hn::Set(d, k.max_e2))), valid);
-  if (hn::AllFalse(d, near)) return hn::Zero(Units());
-  return hn::IfThenElseZero(hn::RebindMask(Units(), near), weight_units(k, dt2, e2));
-}
-
-std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
+std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
                    const ScanRange* ranges, std::size_t range_count) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  constexpr int kBlocksBeforeOverflow = 127;  // of 2^25 each in 32 bits
-  std::uint64_t total = 0;
-  U sum = hn::Zero(Units());
-  int blocks = 0;
+  Neighbours neighbours(kernel);
   for (std::size_t r = 0; r < range_count; ++r) {
-    const Query q = broadcast(query, ranges[r].sign);
-    for (std::size_t i = ranges[r].begin; i < ranges[r].end; i += lanes) {
-      sum =
-          hn::Add(sum, scan_block(kernel, columns, q, i,
-                                  hn::FirstN(d, std::min<std::size_t>(lanes, ranges[r].end - i))));
-      if (++blocks < kBlocksBeforeOverflow) continue;
-      total += sum_of_lanes(sum);
-      sum = hn::Zero(Units());
-      blocks = 0;
-    }
+    const Query query(kernel, point, ranges[r].sign);
+    const std::size_t end = ranges[r].end;
+    for (std::size_t i = ranges[r].begin; i < end; i += lanes)
+      query.compare(columns, i, hn::FirstN(d, std::min(lanes, end - i)), neighbours);
   }
-  return total + sum_of_lanes(sum);
+  return neighbours.total();
 }
 
 }  // namespace posevote::HWY_NAMESPACE

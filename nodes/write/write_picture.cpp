@@ -133,12 +133,6 @@ class Painter {
   float resolution_;
 };
 
-const Model* find_model(const ModelLibrary& library, int obj_id) {
-  for (const auto& model : library.models)
-    if (model->obj_id == obj_id) return model.get();
-  return nullptr;
-}
-
 void write_picture(const Cloud& scan, const Detections& detections, const ModelLibrary& library,
                    const graph::FrameContext& context, const Params& params) {
   if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;

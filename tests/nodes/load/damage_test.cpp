@@ -87,16 +87,7 @@ std::string floats(int count) {
   return bytes;
 }
 
-/// LZF of nothing but literals: runs of up to 32 bytes.
-std::string compressed_pcd() {
-  const std::string plain = floats(24);
-  std::string packed;
-  for (std::size_t i = 0; i < plain.size(); i += 32) packed += '\x1f' + plain.substr(i, 32);
-  std::string bytes = pcd("binary_compressed");
-  append(bytes, static_cast<std::uint32_t>(packed.size()));
-  append(bytes, static_cast<std::uint32_t>(plain.size()));
-  return bytes + packed;
-}
+std::string compressed_pcd() { return pcd("binary_compressed") + lzf_block(floats(24)); }
 
 std::string binary_stl() {
   std::string bytes(80, ' ');

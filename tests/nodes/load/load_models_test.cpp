@@ -27,7 +27,7 @@ TEST_CASE("load_models: errors name every file that could not be read", "[load]"
                          {dir.write("b.obj", "v 0 0 0\n"), 2, "b"},
                          {dir.write("c.obj", "v 0 0\n"), 3, "c"}};
   const auto load = [](const ModelFiles& f) { run_node<PerObject<Cloud>>("load_models", {}, f); };
-  CHECK(error_of([&] { load(files); }) == files[0].path.string() + ": there is no such file\n" +
+  CHECK(error_of([&] { load(files); }) == files[0].path.string() + ": there is no such file; " +
                                               files[2].path.string() +
                                               ": line 1: ends where a number was expected");
   CHECK_THAT(error_of([&] { load({}); }), has("no models"));

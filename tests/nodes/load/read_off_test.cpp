@@ -47,7 +47,7 @@ TEST_CASE("OFF: damage", "[load][off]") {
   CHECK_THAT(off_error("OFF99999999999999999 1 0\n" + kSquare), has("99999999999999999"));
   CHECK_THAT(off_error("OFF\n4 4000000000 0\n" + kSquare + "3 0 1 2\n"),
              has("claims 4000000000 faces"));
-  CHECK_THAT(off_error("OFF\n4 1 0\n" + kSquare + "     "),
+  CHECK_THAT(off_error("OFF\n4 1 0\n" + kSquare.substr(0, 23) + "      \n"),
              has("after line 6, expected face 1 of 1"));
   CHECK_THAT(off_error("OFF\n4 1 0\n" + kSquare + "3 0 1 4\n"), has("line 7: a face refers to"));
   CHECK_THAT(off_error("OFF\n4 1 0\n" + kSquare + "3 0 1\n"), has("line 7: ends where"));

@@ -55,6 +55,19 @@ void append(std::string& out, T value, std::endian order = std::endian::little) 
   out.append(bytes.data(), bytes.size());
 }
 
+/// The body of a compressed PCD file: both sizes, then LZF of nothing but literals, up to 32 a run.
+inline std::string lzf_block(const std::string& plain) {
+  std::string packed;
+  for (std::size_t i = 0; i < plain.size(); i += 32) {
+    const std::string run = plain.substr(i, 32);
+    packed += static_cast<char>(run.size() - 1) + run;
+  }
+  std::string block;
+  append(block, static_cast<std::uint32_t>(packed.size()));
+  append(block, static_cast<std::uint32_t>(plain.size()));
+  return block + packed;
+}
+
 /// The text of the std::runtime_error that `action` throws. Any other exception fails the test.
 template <class Action>
 std::string error_of(const Action& action) {

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FPFH (Rusu, Blodow, Beetz, ICRA 2009; PCL's code): histograms of three point-pair angles around
+// every surface point, averaged over the neighbours of the feature point. 33 numbers.
+//
+// PCL's class would search its neighbours and compute the histograms of the surface anew in every
+// chunk of feature points; so both are done here, once, and PCL's two steps are called on the
+// result.
+//
+// Left out are feature points without a usable normal or with fewer than `min_neighbours`
+// neighbours. Fails if none is left. Time: O(surface points x neighbours).
+//
+//   describe_fpfh: {in: [cloud, points, scale], out: features, radius: 10}
+#include <pcl/features/fpfh.h>
+
+#include "graph/parallel.hpp"
+#include "graph/registry.hpp"
+#include "nodes/describe/feature_set.hpp"
+#include "nodes/describe/pcl_surface.hpp"
+
+namespace posevote {
+namespace {
+
+struct Params {
+  double radius = 10;
+  int min_neighbours = 10;
+};
+
+constexpr int kBins = 11;  // per angle, as in PCL
+constexpr int kLength = 3 * kBins;
+
+using Fpfh = pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33>;
+
+struct Neighbours {
+  pcl::Indices rows;
+  std::vector<float> squared;
+};
+
+/// Neighbours of a surface point, itself among them.
+Neighbours find_neighbours(const PclSurface& surface, const PointGrid& grid, int row,
+                           float radius) {
+  Neighbours found;
+  grid.for_each_within(surface.points->points[static_cast<std::size_t>(row)].getVector3fMap(),
+                       radius, [&](std::uint32_t point, float squared) {
+                         const int neighbour = surface.row_of[point];
+                         if (neighbour < 0) return;
+                         found.rows.push_back(neighbour);
+                         found.squared.push_back(squared);
+                       });
+  return found;
+}
+
+/// Simplified histograms of every surface point, one matrix an angle.
+struct Simplified {
+  Eigen::MatrixXf angle[3];
+};
+
+Simplified simplified_histograms(const PclSurface& surface, const PointGrid& grid, float radius) {
+  const auto count = static_cast<Eigen::Index>(surface.points->size());
+  Simplified histograms;
+  for (Eigen::MatrixXf& angle : histograms.angle) angle.setZero(count, kBins);
+  graph::parallel_ranges(surface.points->size(), 256, [&](std::size_t begin, std::size_t end) {
+    Fpfh fpfh;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int row = static_cast<int>(i);
+      const Neighbours near = find_neighbours(surface, grid, row, radius);
+      if (near.rows.size() < 2) continue;
+      fpfh.computePointSPFHSignature(*surface.points, *surface.normals, row, row, near.rows,
+                                     histograms.angle[0], histograms.angle[1], histograms.angle[2]);
+    }
+  });
+  return histograms;
+}
+
+FeatureSet describe_fpfh(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
+                         const Params& params) {
+  require_describable(cloud, points, scale);
+  const float radius = static_cast<float>(params.radius) * scale.resolution;
+  const PclSurface surface = make_pcl_surface(cloud);
+  const PointGrid grid(cloud.points, 0.5F * radius);
+  const Describable chosen =
+      select_describable(surface, grid, points, radius, params.min_neighbours);
+  const Simplified histograms = simplified_histograms(surface, grid, radius);
+  DescriptorMatrix descriptors(static_cast<Eigen::Index>(points.indices.size()), kLength);
+  std::vector<char> described(points.indices.size(), 0);
+  graph::parallel_ranges(chosen.row.size(), 64, [&](std::size_t begin, std::size_t end) {
+    Fpfh fpfh;
+    Eigen::VectorXf histogram(kLength);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Neighbours near = find_neighbours(surface, grid, chosen.row[i], radius);
+      fpfh.weightPointSPFHSignature(histograms.angle[0], histograms.angle[1], histograms.angle[2],
+                                    near.rows, near.squared, histogram);
+      descriptors.row(static_cast<Eigen::Index>(chosen.feature[i])) = histogram.transpose();
+      described[chosen.feature[i]] = 1;
+    }
+  });
+  return keep_described(cloud, points, descriptors, described);
+}
+
+const auto registered =
+    graph::register_node("describe_fpfh", describe_fpfh,
+                         "FPFH: averaged histograms of point-pair angles (33 numbers).")
+        .input("cloud")
+        .input("points")
+        .input("scale")
+        .output("features")
+        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
+               graph::greater_than(0))
+        .param("min_neighbours", &Params::min_neighbours, "",
+               "A feature point with fewer is left out.", graph::at_least(2));
+
+}  // namespace
+}  // namespace posevote

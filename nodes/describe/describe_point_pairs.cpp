@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Describes a feature point p with normal n by histograms over all pairs with a neighbour p' with
+// normal n' within a radius. For d = (p' - p) / |p' - p| and b = d x n / |d x n| a pair has the
+// angles
+//
+//   (n, d)  (n', d)  (n, n')  (n', b)
+//
+// The first three are those of point-pair features (Drost et al. 2010); the fourth tells left from
+// right, as in point feature histograms (Rusu et al. 2008). Each is counted in a histogram of
+// 6 distances x 10 angles by linear interpolation. Each distance row is brought to the sum
+// (row + 1/2) / 6, whatever the sampling there, and square-rooted, so that the Euclidean distance
+// is the Hellinger distance. 240 numbers; rotation changes nothing, reflection does.
+//
+// Only neighbours that face the same side count, n . n' >= `min_facing`: where p is seen, those
+// may be seen too, while a scan lacks the far side of the object that a model has.
+//
+// Left out are feature points without a usable normal or with fewer than `min_neighbours` such
+// neighbours. Fails if none is left. Time: O(feature points x neighbours).
+//
+//   describe_point_pairs: {in: [cloud, points, scale], out: features, radius: 25}
+#include "graph/parallel.hpp"
+#include "graph/registry.hpp"
+#include "nodes/describe/feature_set.hpp"
+#include "nodes/describe/point_pair_histogram.hpp"
+#include "nodes/prepare/grid.hpp"
+
+namespace posevote {
+namespace {
+
+struct Params {
+  double radius = 25;
+  double min_facing = 0.2;
+  int min_neighbours = 10;
+};
+
+/// Writes the descriptor of one point and returns how many neighbours it is made of.
+int describe(const Cloud& cloud, const PointGrid& grid, std::uint32_t point, float radius,
+             float min_facing, float* descriptor) {
+  const Eigen::Vector3f center = cloud.points.row(point);
+  const Eigen::Vector3f normal = cloud.normals.row(point);
+  PointPairHistogram histogram(normal, radius);
+  int count = 0;
+  grid.for_each_within(center, radius, [&](std::uint32_t neighbour, float squared) {
+    if (!(squared > 0) || !is_oriented(cloud, neighbour)) return;
+    const Eigen::Vector3f other = cloud.normals.row(neighbour);
+    if (!(normal.dot(other) >= min_facing)) return;
+    histogram.add(cloud.points.row(neighbour).transpose() - center, other);
+    ++count;
+  });
+  histogram.write(descriptor);
+  return count;
+}
+
+FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
+                                const Params& params) {
+  require_describable(cloud, points, scale);
+  const float radius = static_cast<float>(params.radius) * scale.resolution;
+  const auto min_facing = static_cast<float>(params.min_facing);
+  const PointGrid grid(cloud.points, 0.5F * radius);
+  const std::size_t count = points.indices.size();
+  DescriptorMatrix descriptors(static_cast<Eigen::Index>(count), PointPairHistogram::kLength);
+  std::vector<char> described(count, 0);
+  graph::parallel_for(count, 32, [&](std::size_t i) {
+    const std::uint32_t point = points.indices[i];
+    if (!is_oriented(cloud, point)) return;
+    described[i] =
+        describe(cloud, grid, point, radius, min_facing,
+                 descriptors.row(static_cast<Eigen::Index>(i)).data()) >= params.min_neighbours;
+  });
+  return keep_described(cloud, points, descriptors, described);
+}
+
+const auto registered =
+    graph::register_node("describe_point_pairs", describe_point_pairs,
+                         "Point-pair histograms: distance against four angles (240 numbers).")
+        .input("cloud")
+        .input("points")
+        .input("scale")
+        .output("features")
+        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
+               graph::greater_than(0))
+        .param("min_facing", &Params::min_facing, "cosine",
+               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1))
+        .param("min_neighbours", &Params::min_neighbours, "",
+               "A feature point with fewer is left out.", graph::at_least(1));
+
+}  // namespace
+}  // namespace posevote

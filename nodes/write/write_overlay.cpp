@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each scan with the found models laid over it, for a viewer of point clouds:
+// OUT/overlays/FRAME.ply.
+//
+// Binary PLY in metres, in the scan's frame: the scan in grey, each found instance's points in a
+// colour of its own (the same as in write_picture). Where there is no output folder, that is an
+// error; a file that cannot be written fails the frame.
+//
+//   write_overlay: {in: [scene_cloud, detections, library], every: 1}
+#include <filesystem>
+#include <stdexcept>
+
+#include "graph/registry.hpp"
+#include "nodes/data/detections.hpp"
+#include "nodes/data/model.hpp"
+#include "nodes/write/canvas.hpp"
+#include "nodes/write/write_ply.hpp"
+
+namespace posevote {
+namespace {
+
+struct Params {
+  int every = 1;
+};
+
+Rgb to_rgb(const Colour& colour) {
+  return {static_cast<std::uint8_t>(255 * colour.x()), static_cast<std::uint8_t>(255 * colour.y()),
+          static_cast<std::uint8_t>(255 * colour.z())};
+}
+
+void append(Cloud& to, const Cloud& cloud, const Eigen::Isometry3f& pose) {
+  const Eigen::Index before = to.points.rows();
+  const Eigen::Index added = cloud.points.rows();
+  to.points.conservativeResize(before + added, 3);
+  to.normals.conservativeResize(before + added, 3);
+  to.points.bottomRows(added) =
+      (cloud.points * pose.linear().transpose()).rowwise() + pose.translation().transpose();
+  to.normals.bottomRows(added) = cloud.normals * pose.linear().transpose();
+}
+
+void write_overlay(const Cloud& scan, const Detections& detections, const ModelLibrary& library,
+                   const graph::FrameContext& context, const Params& params) {
+  if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
+  if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
+  Cloud overlay;
+  append(overlay, scan, Eigen::Isometry3f::Identity());
+  std::vector<Rgb> colours(static_cast<std::size_t>(scan.points.rows()), Rgb{160, 160, 155});
+  for (std::size_t i = 0; i < detections.items.size(); ++i) {
+    const Detection& found = detections.items[i];
+    const Model* model = find_model(library, found.obj_id);
+    if (!model) continue;
+    append(overlay, model->cloud, found.T_scene_model.cast<float>());
+    colours.resize(static_cast<std::size_t>(overlay.points.rows()), to_rgb(distinct_colour(i)));
+  }
+  std::filesystem::create_directories(context.out / "overlays");
+  write_ply(context.out / "overlays" / (context.name + ".ply"), overlay, 1, colours);
+}
+
+const auto registered =
+    graph::register_node("write_overlay", write_overlay,
+                         "Each scan with the found models laid over it, as a coloured PLY.")
+        .input("scan")
+        .input("detections")
+        .input("library")
+        .param("every", &Params::every, "frames", "Only every n-th frame; 0: none.",
+               graph::at_least(0));
+
+}  // namespace
+}  // namespace posevote

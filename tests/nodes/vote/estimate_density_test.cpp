@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "nodes/vote/pose_index.hpp"
+#include "tests/support/run_node.hpp"
+#include "tests/support/votes.hpp"
+
+namespace posevote {
+namespace {
+
+TEST_CASE("estimate_density finds the pose on which votes agree", "[vote]") {
+  std::mt19937 random(1);
+  VoteSet votes = test::spread_votes(random, 2000, 0.1F);
+  const Eigen::Quaternionf q = test::random_rotation(random);
+  for (int i = 0; i < 30; ++i)
+    test::add_vote(votes, Eigen::Vector3f(0.01F, 0, 0) + 0.002F * test::random_direction(random),
+                   q);
+  const auto result = test::run_node<VoteDensity>("estimate_density", {}, votes);
+  REQUIRE(result.density.size() == 2030);
+  CHECK(*std::min_element(result.density.begin(), result.density.end()) >= 1);
+  CHECK(std::max_element(result.density.begin(), result.density.end()) - result.density.begin() >=
+        2000);
+  CHECK(result.index->bandwidth().sigma_t == 0.01F);
+}
+
+TEST_CASE("estimate_density takes its bandwidths in metres and degrees", "[vote]") {
+  VoteSet votes;
+  test::add_vote(votes, {0, 0, 0}, Eigen::Quaternionf::Identity());
+  test::add_vote(votes, {0.02F, 0, 0},
+                 Eigen::Quaternionf(Eigen::AngleAxisf(0.5F, Eigen::Vector3f::UnitX())));
+  const auto density = [&](const char* sigma_t, const char* sigma_r) {
+    return test::run_node<VoteDensity>("estimate_density",
+                                       {{"sigma_t", sigma_t}, {"sigma_r", sigma_r}}, votes)
+        .density[0];
+  };
+  CHECK(density("0.0199", "30") == 1);
+  CHECK(density("0.0201", "28.6") == 1);  // 0.5 rad are 28.65 deg
+  CHECK(density("0.0201", "28.7") == Approx(1 + std::exp(-1)).epsilon(0.01));
+  CHECK_THROWS_AS(density("0", "20"), std::invalid_argument);
+  CHECK_THROWS_AS(density("0.01", "120"), std::invalid_argument);
+}
+
+TEST_CASE("estimate_density of no votes is empty", "[vote]") {
+  const auto result = test::run_node<VoteDensity>("estimate_density", {}, VoteSet{});
+  CHECK(result.density.empty());
+  REQUIRE(result.index != nullptr);
+}
+
+}  // namespace
+}  // namespace posevote

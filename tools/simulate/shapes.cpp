@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "tools/simulate/fields.hpp"
+#include "tools/simulate/surface_nets.hpp"
+
+namespace posevote {
+namespace {
+
+using namespace simulate;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kExtent = 1.5;  // of the space that a field is sampled in
+
+/// Where the ray from the origin leaves a body; the surface of the fields below lies within 1.4.
+Vector3d surface_toward(const Field& field, const Vector3d& direction) {
+  double outside = 1.4;
+  while (outside > 0 && field(outside * direction) > 0) outside -= 0.02;
+  return outside * direction;
+}
+
+/// Bumps and dents of various sizes on the surface that the origin sees.
+Relief relief(const Field& field, Random& random, int bumps, int dents) {
+  Relief made;
+  const auto ball = [&](double low, double high) {
+    const double radius = random.uniform(low, high);
+    return Ball{surface_toward(field, random.direction()), radius};
+  };
+  for (int i = 0; i < bumps; ++i) made.bumps.push_back(ball(0.08, 0.2));
+  for (int i = 0; i < dents; ++i) made.dents.push_back(ball(0.1, 0.2));
+  return made;
+}
+
+/// Farther than this from a body, its skin and relief change nothing: they need not be computed.
+constexpr double kFar = 0.5;
+
+/// `field` with relief and an uneven skin.
+Field roughen(const Field& field, Random& random, int bumps, int dents, double amplitude) {
+  const Waves waves(random, 10, 7);
+  const Relief shape = relief(field, random, bumps, dents);
+  return [field, amplitude, waves, shape](const Vector3d& p) {
+    const double smooth = field(p);
+    return std::abs(smooth) > kFar ? smooth : shape.apply(smooth + amplitude * waves(p), p);
+  };
+}
+
+/// A star-shaped body: radius by direction, from smooth noise.
+Field boulder(Random& random) {
+  const Vector3d axes(1, random.uniform(0.65, 0.85), random.uniform(0.5, 0.65));
+  const Field body = [axes, waves = Waves(random, 8, 2.5)](const Vector3d& p) {
+    const double length = p.norm();
+    const Vector3d direction = p / std::max(length, 1e-9);
+    const double radius = 0.9 / direction.cwiseQuotient(axes).norm();
+    return 0.7 * (length - radius * (1 + 0.12 * waves(direction)));
+  };
+  return roughen(body, random, 7, 7, 0.015);
+}
+
+/// A bent tube that tapers, with knobs along it.
+Field horn(Random& random) {
+  const double turn = random.uniform(1.2, 1.7) * kPi, rise = random.uniform(0.5, 0.9);
+  std::vector<Ball> spine;
+  for (int i = 0; i <= 12; ++i) {
+    const double part = i / 12.0, angle = turn * part;
+    spine.push_back(
+        {{0.75 * std::cos(angle), 0.75 * std::sin(angle), rise * (part - 0.5)}, 0.32 - 0.2 * part});
+  }
+  Relief knobs;
+  for (int i = 0; i < 9; ++i) {
+    const Ball& at = spine[static_cast<std::size_t>(i) + 1];
+    knobs.bumps.push_back(
+        {at.center + at.radius * random.direction(), at.radius * random.uniform(0.35, 0.6)});
+  }
+  return [spine, knobs, waves = Waves(random, 10, 8)](const Vector3d& p) {
+    const double tube = to_chain(p, spine, 0.05);
+    return std::abs(tube) > kFar ? tube : knobs.apply(tube + 0.012 * waves(p), p);
+  };
+}
+
+/// Metaballs: where the sum of their influence is above a threshold.
+Field coral(Random& random) {
+  std::vector<Ball> balls{{Vector3d::Zero(), 0.45}};
+  for (int i = 0; i < 9; ++i)
+    balls.push_back({random.uniform(0.4, 0.85) * random.direction(), random.uniform(0.18, 0.34)});
+  const Field body = [balls](const Vector3d& p) {
+    double influence = 0;
+    for (const Ball& ball : balls)
+      influence += std::exp(-(p - ball.center).squaredNorm() / (ball.radius * ball.radius));
+    return 0.4 * (0.35 - influence);
+  };
+  return roughen(body, random, 3, 2, 0.006);
+}
+
+/// A superellipsoid, tapered and twisted about its long axis.
+Field wrench(Random& random) {
+  const double twist = random.uniform(1.2, 1.8), taper = random.uniform(0.2, 0.35);
+  const double width = random.uniform(0.5, 0.6), depth = random.uniform(0.25, 0.35);
+  const Field body = [=](const Vector3d& p) {
+    const double c = std::cos(twist * p.z()), s = std::sin(twist * p.z());
+    const double wide = width * (1 - taper * p.z()), deep = depth * (1 + 0.5 * taper * p.z());
+    const Vector3d q((c * p.x() + s * p.y()) / wide, (c * p.y() - s * p.x()) / deep, p.z());
+    return 0.3 * (std::sqrt(q.cwiseAbs2().cwiseAbs2().sum()) - 1);  // exponent 4
+  };
+  return roughen(body, random, 6, 5, 0.012);
+}
+
+/// A lumpy torus with a handle across it.
+Field kettle(Random& random) {
+  const double lean = random.uniform(0.2, 0.4);
+  const std::vector<Ball> handle{{{0.7, 0, 0.1}, 0.13},
+                                 {{0.55, lean, 0.65}, 0.09},
+                                 {{-0.1, lean, 0.85}, 0.09},
+                                 {{-0.65, 0.2, 0.1}, 0.15}};
+  const Field body = [handle, waves = Waves(random, 6, 3)](const Vector3d& p) {
+    const double around = std::sqrt(p.x() * p.x() + p.y() * p.y()) - 0.7;
+    const double ring = std::sqrt(around * around + p.z() * p.z()) - 0.24 - 0.06 * waves(p);
+    return smooth_min(ring, to_chain(p, handle, 0.05), 0.08);
+  };
+  return roughen(body, random, 6, 0, 0.01);
+}
+
+/// A standing figure: trunk, head and limbs in a pose of its own.
+Field figure(Random& random) {
+  const auto near = [&](double x, double y, double z) -> Vector3d {
+    return Vector3d(x, y, z) + 0.12 * random.direction();
+  };
+  const Ball hip{{0, 0, -0.2}, 0.26}, chest{{0, 0, 0.3}, 0.3};
+  const std::vector<std::vector<Ball>> limbs{
+      {hip, chest},
+      {{near(0.05, 0.05, 0.75), 0.21}, {near(0.2, 0.1, 0.8), 0.13}},
+      {chest, {near(0.5, 0.2, 0.2), 0.1}, {near(0.6, 0.5, 0.5), 0.13}},
+      {chest, {near(-0.45, 0.1, 0.1), 0.11}, {near(-0.4, 0.4, -0.2), 0.14}},
+      {hip, {near(0.25, 0.05, -0.65), 0.14}, {near(0.3, 0.15, -1), 0.16}},
+      {hip, {near(-0.25, -0.1, -0.6), 0.15}, {near(-0.3, 0, -1), 0.18}}};
+  const Field body = [limbs](const Vector3d& p) {
+    double nearest = to_chain(p, limbs[0], 0.05);
+    for (std::size_t i = 1; i < limbs.size(); ++i)
+      nearest = smooth_min(nearest, to_chain(p, limbs[i], 0.05), 0.12);
+    return nearest;
+  };
+  return roughen(body, random, 4, 3, 0.012);
+}
+
+const std::map<std::string, Field (*)(Random&)>& shapes() {
+  static const std::map<std::string, Field (*)(Random&)> known{
+      {"boulder", boulder}, {"coral", coral},   {"figure", figure},
+      {"horn", horn},       {"kettle", kettle}, {"wrench", wrench}};
+  return known;
+}
+
+/// Whether each edge joins exactly two triangles. Surface nets pinch the surface where two sheets
+/// of it pass one cell.
+bool is_manifold(const Cloud& mesh) {
+  std::vector<std::uint64_t> edges;  // directed
+  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face)
+    for (int k = 0; k < 3; ++k)
+      edges.push_back(std::uint64_t{mesh.faces(face, k)} << 32U | mesh.faces(face, (k + 1) % 3));
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+Cloud mesh_of(const Field& field) {
+  for (int cells = 42; cells <= 56; ++cells) {  // a slightly finer grid cuts the sheets elsewhere
+    Cloud mesh = surface_nets(field, kExtent, kExtent / cells);
+    if (is_manifold(mesh)) return mesh;
+  }
+  throw std::runtime_error("has parts too thin to mesh; choose another seed");
+}
+
+}  // namespace
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& [name, make] : shapes()) list.push_back(name);
+    return list;
+  }();
+  return names;
+}
+
+Cloud make_shape(const std::string& shape, std::uint64_t seed, double size) {
+  const auto found = shapes().find(shape);
+  if (found == shapes().end()) throw std::invalid_argument("no shape is called " + shape);
+  Random random(seed);
+  Cloud mesh = mesh_of(found->second(random));
+  const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
+  const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
+  mesh.points.rowwise() -= 0.5F * (low + high);
+  mesh.points *= static_cast<float>(size) / (high - low).maxCoeff();
+  return mesh;
+}
+
+}  // namespace posevote
