@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBeyondDoubt = 0.6;    // score at which no other mode is looked at
 constexpr std::size_t kFinalists = 5;   // refined by ICP
-constexpr Eigen::Index kGlance = 2000;  // model points that judge a mode before ICP
+constexpr Eigen::Index kGlance = 1000;  // model points that judge a mode before ICP
 constexpr double kKeptSupport = 0.95;   // ICP may lose a few chance partners at the silhouette
 
 /// Works on the first candidate and, unless it then fits beyond doubt, on all others; the best

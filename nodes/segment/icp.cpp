@@ -15,7 +15,7 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr Eigen::Index kMaxSamples = 3000;  // model points; about half of them face the sensor
+constexpr Eigen::Index kMaxSamples = 2000;  // model points; about half of them face the sensor
 constexpr std::size_t kFewestPairs = 10;
 constexpr double kShrink = 0.85;  // of the search radius per iteration
 constexpr double kUnobserved =

@@ -71,6 +71,21 @@ TEST_CASE("a shift never lowers the density", "[segment]") {
   }
 }
 
+TEST_CASE("a mean that loses one side's votes is not taken", "[segment]") {
+  VoteSet votes;
+  votes.votes_per_correspondence = 1;
+  const auto add = [&votes](int count, float x) {
+    for (int i = 0; i < count; ++i)
+      add_vote(votes, kCenter + Eigen::Vector3f(x, 0, 0), kRotation, 1.0F);
+  };
+  add(10, 0.0095F);
+  add(6, -0.0095F);
+  const VoteDensity density = density_of(votes);
+  const PoseMode start{kCenter, kRotation};
+  const PoseMode mode = refine_mode(votes, density, std::vector<char>(16, 1), start);
+  CHECK(mode.center == start.center);
+}
+
 TEST_CASE("dead votes pull no mode", "[segment]") {
   VoteSet votes = cluster(100);
   for (int i = 0; i < 200; ++i)
