@@ -49,8 +49,12 @@ const Glyph* find_glyph(char letter) {
   return found == std::end(kFont) ? nullptr : found;
 }
 
-std::uint8_t to_byte(float value) {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
+std::array<std::uint8_t, 3> to_bytes(const Colour& colour) {
+  std::array<std::uint8_t, 3> bytes{};
+  for (std::size_t k = 0; k < 3; ++k)
+    bytes[k] = static_cast<std::uint8_t>(
+        std::lround(255 * std::clamp(colour(static_cast<int>(k)), 0.0F, 1.0F)));
+  return bytes;
 }
 
 }  // namespace
@@ -63,29 +67,57 @@ Canvas::Canvas(int width, int height, const Colour& background)
   fill(0, 0, width, height, background);
 }
 
+std::size_t Canvas::index(int row, int column) const {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+         static_cast<std::size_t>(column);
+}
+
 void Canvas::fill(int x, int y, int width, int height, const Colour& colour) {
+  const std::array<std::uint8_t, 3> bytes = to_bytes(colour);
   for (int row = std::max(0, y); row < std::min(height_, y + height); ++row)
     for (int column = std::max(0, x); column < std::min(width_, x + width); ++column) {
-      const std::size_t at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                                  static_cast<std::size_t>(column));
-      for (std::size_t k = 0; k < 3; ++k) pixels_[at + k] = to_byte(colour(static_cast<int>(k)));
+      const std::size_t at = 3 * index(row, column);
+      std::copy(bytes.begin(), bytes.end(), pixels_.begin() + static_cast<long>(at));
     }
 }
 
-void Canvas::splat(float x, float y, float depth, int radius, const Colour& colour) {
-  if (!(std::abs(x) < 1e6F) || !(std::abs(y) < 1e6F)) return;
-  const int center_x = static_cast<int>(std::lround(x));
-  const int center_y = static_cast<int>(std::lround(y));
-  for (int row = std::max(0, center_y - radius); row <= std::min(height_ - 1, center_y + radius);
-       ++row)
-    for (int column = std::max(0, center_x - radius);
-         column <= std::min(width_ - 1, center_x + radius); ++column) {
-      float& nearest = depth_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                              static_cast<std::size_t>(column)];
-      if (depth >= nearest) continue;
-      nearest = depth;
-      fill(column, row, 1, 1, colour);
+void Canvas::draw(const Disc& disc, const Colour& colour) {
+  constexpr float kMost = 40;
+  if (!(std::abs(disc.x) < 1e6F) || !(std::abs(disc.y) < 1e6F) || !(disc.radius >= 0)) return;
+  const std::array<std::uint8_t, 3> bytes = to_bytes(colour);
+  const float radius = std::min(disc.radius, kMost);
+  const int reach = static_cast<int>(radius);
+  const int center_x = static_cast<int>(std::lround(disc.x));
+  const int center_y = static_cast<int>(std::lround(disc.y));
+  const int first = std::max(-reach, -center_x), last = std::min(reach, width_ - 1 - center_x);
+  for (int row = std::max(0, center_y - reach); row <= std::min(height_ - 1, center_y + reach);
+       ++row) {
+    const auto dy = static_cast<float>(row - center_y);
+    for (int offset = first; offset <= last; ++offset) {
+      const auto dx = static_cast<float>(offset);
+      const float gain = disc.tilt.x() * dx + disc.tilt.y() * dy;  // dx = dy = 0 is always inside
+      if (dx * dx + dy * dy + gain * gain > radius * radius) continue;
+      const std::size_t at = index(row, center_x + offset);
+      const float depth = disc.depth + gain * disc.pixel;
+      if (!(depth < depth_[at])) continue;
+      depth_[at] = depth;
+      std::copy(bytes.begin(), bytes.end(), pixels_.begin() + static_cast<long>(3 * at));
     }
+  }
+}
+
+Canvas Canvas::halved() const {
+  Canvas half(width_ / 2, height_ / 2, Colour::Zero());
+  const auto row_bytes = static_cast<std::size_t>(width_) * 3;
+  const auto half_bytes = static_cast<std::size_t>(half.width_) * 3;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(half.height_); ++row)
+    for (std::size_t i = 0; i < half_bytes; ++i) {
+      const std::size_t at = 2 * row * row_bytes + i / 3 * 6 + i % 3;
+      const int sum =
+          pixels_[at] + pixels_[at + 3] + pixels_[at + row_bytes] + pixels_[at + row_bytes + 3];
+      half.pixels_[row * half_bytes + i] = static_cast<std::uint8_t>((sum + 2) / 4);
+    }
+  return half;
 }
 
 void Canvas::text(int x, int y, int size, const std::string& words, const Colour& colour) {
@@ -109,12 +141,15 @@ void Canvas::save(const std::filesystem::path& png) const {
   image.width = static_cast<png_uint_32>(width_);
   image.height = static_cast<png_uint_32>(height_);
   image.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&image, temporary.c_str(), 0, pixels_.data(), 0, nullptr) == 0) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(png.string() + ": cannot be written: " + image.message);
-  }
-  std::filesystem::rename(temporary, png);
+  std::string problem;
+  if (png_image_write_to_file(&image, temporary.c_str(), 0, pixels_.data(), 0, nullptr) == 0)
+    problem = image.message;
+  std::error_code error;
+  if (problem.empty()) std::filesystem::rename(temporary, png, error);
+  if (error) problem = error.message();
+  if (problem.empty()) return;
+  std::filesystem::remove(temporary, error);
+  throw std::runtime_error(png.string() + ": cannot be written: " + problem);
 }
 
 Colour distinct_colour(std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture with a depth buffer: points are splatted, text is stamped, the result is a PNG.
+// A picture with a depth buffer: discs are drawn, text is stamped, the result is a PNG.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,12 +12,26 @@ namespace posevote {
 
 using Colour = Eigen::Vector3f;  ///< red, green, blue in [0, 1]
 
+/// A small flat disc in space, as the picture sees it.
+struct Disc {
+  float x = 0, y = 0;                              ///< center [pixel]
+  float depth = 0;                                 ///< of the center, any unit
+  float radius = 1;                                ///< seen from the front [pixel]
+  Eigen::Vector2f tilt = Eigen::Vector2f::Zero();  ///< gain of depth along x and y, per pixel, in
+                                                   ///< pixels
+  float pixel = 1;                                 ///< size of a pixel at this depth, unit of depth
+};
+
 class Canvas {
  public:
   Canvas(int width, int height, const Colour& background);
 
-  /// A square of 2 * radius + 1 pixels around (x, y), where nothing nearer has been drawn.
-  void splat(float x, float y, float depth, int radius, const Colour& colour);
+  /// Draws where nothing nearer has been drawn: at least the disc's center, at most 40 pixels
+  /// around.
+  void draw(const Disc& disc, const Colour& colour);
+
+  /// The same picture at half the size, each pixel the mean of four: smooth edges.
+  Canvas halved() const;
 
   /// Letters, digits and . - _ % in 5 x 7 dots, `size` pixels a dot, on a dark plate; clipped.
   void text(int x, int y, int size, const std::string& words, const Colour& colour);
@@ -29,6 +43,7 @@ class Canvas {
   int height() const { return height_; }
 
  private:
+  std::size_t index(int row, int column) const;
   void fill(int x, int y, int width, int height, const Colour& colour);
 
   int width_;

@@ -35,7 +35,10 @@ void append(Cloud& to, const Cloud& cloud, const Eigen::Isometry3f& pose) {
   to.normals.conservativeResize(before + added, 3);
   to.points.bottomRows(added) =
       (cloud.points * pose.linear().transpose()).rowwise() + pose.translation().transpose();
-  to.normals.bottomRows(added) = cloud.normals * pose.linear().transpose();
+  if (cloud.normals.rows() == added)
+    to.normals.bottomRows(added) = cloud.normals * pose.linear().transpose();
+  else
+    to.normals.bottomRows(added).setZero();
 }
 
 void write_overlay(const Cloud& scan, const Detections& detections, const ModelLibrary& library,

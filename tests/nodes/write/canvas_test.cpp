@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/write/canvas.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "tests/nodes/write/picture.hpp"
+#include "tests/nodes/write/writer.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace posevote;
+using posevote::test::Picture;
+using posevote::test::TemporaryFolder;
+
+namespace {
+
+const Colour kRed(1, 0, 0), kGreen(0, 1, 0), kWhite(1, 1, 1);
+
+Disc disc(float x, float y, float depth, float radius) {
+  Disc made;
+  made.x = x, made.y = y, made.depth = depth, made.radius = radius;
+  return made;
+}
+
+Picture saved(const Canvas& canvas) {
+  const TemporaryFolder folder;
+  canvas.save(folder / "a.png");
+  return Picture(folder / "a.png");
+}
+
+}  // namespace
+
+TEST_CASE("what is nearer is seen, in whatever order it is drawn", "[write]") {
+  for (const bool near_first : {true, false}) {
+    Canvas canvas(40, 30, kWhite);
+    for (const bool near : {near_first, !near_first})
+      canvas.draw(near ? disc(20, 10, 1, 3) : disc(20, 10, 2, 6), near ? kRed : kGreen);
+    const Picture picture = saved(canvas);
+    CHECK(picture.at(20, 10) == Rgb{255, 0, 0});
+    CHECK(picture.at(22, 10) == Rgb{255, 0, 0});
+    CHECK(picture.at(25, 10) == Rgb{0, 255, 0});
+    CHECK(picture.at(10, 20) == Rgb{255, 255, 255});
+  }
+}
+
+TEST_CASE("a disc is round; tilted, it is narrow and its depth varies", "[write]") {
+  Canvas canvas(60, 60, kWhite);
+  canvas.draw(disc(30, 30, 10, 20), kGreen);
+  CHECK(saved(canvas).at(46, 46) == Rgb{255, 255, 255});  // a corner of the square around it
+  CHECK(saved(canvas).at(30, 49) == Rgb{0, 255, 0});
+  Disc tilted = disc(30, 30, 10, 20);
+  tilted.tilt = {-1, 0};  // nearer to the right
+  canvas.draw(tilted, kRed);
+  const Picture picture = saved(canvas);
+  CHECK(picture.at(40, 30) == Rgb{255, 0, 0});
+  CHECK(picture.at(20, 30) == Rgb{0, 255, 0});
+  CHECK(picture.at(45, 30) == Rgb{0, 255, 0});  // 15 pixels across at 45 degrees: beyond its edge
+}
+
+TEST_CASE("half the size: each pixel the mean of four", "[write]") {
+  Canvas canvas(4, 4, kWhite);
+  canvas.draw(disc(0, 0, 1, 0), Colour(0, 0, 0));
+  canvas.draw(disc(1, 1, 1, 0), Colour(0, 0, 0));
+  const Picture picture = saved(canvas.halved());
+  CHECK(picture.width == 2);
+  CHECK(picture.height == 2);
+  CHECK(picture.at(0, 0) == Rgb{128, 128, 128});
+  CHECK(picture.at(1, 0) == Rgb{255, 255, 255});
+}
+
+TEST_CASE("letters stand upright, and nothing outside is drawn", "[write]") {
+  Canvas canvas(30, 20, kWhite);
+  canvas.text(5, 5, 1, "L", kRed);
+  const Picture picture = saved(canvas);
+  CHECK(picture.at(5, 5) == Rgb{255, 0, 0});   // top of the stem
+  CHECK(picture.at(9, 11) == Rgb{255, 0, 0});  // end of the foot
+  CHECK(picture.at(9, 5) != Rgb{255, 0, 0});
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (const float far : {-1e30F, -50.0F, 1e5F, 1e30F, kNan})
+    canvas.draw(disc(far, far, 1, 9), kRed);
+  canvas.draw(disc(5, 5, kNan, 9), kGreen);
+  canvas.draw(disc(5, 5, 1, kNan), kGreen);
+  canvas.text(-1000, -1000, 2, "FAR \xff away", kRed);
+  canvas.text(1000, 5, 2, "FAR", kRed);
+  CHECK(saved(canvas).pixels == picture.pixels);
+}
+
+TEST_CASE("a picture that cannot be written is named and leaves nothing behind", "[write]") {
+  const TemporaryFolder folder;
+  const Canvas canvas(300, 300, kWhite);
+  CHECK_THROWS_WITH(canvas.save(folder / "none/a.png"), Catch::Contains("none/a.png: cannot be"));
+  std::filesystem::create_directories(folder / "b.png");
+  CHECK_THROWS_WITH(canvas.save(folder / "b.png"), Catch::Contains("b.png: cannot be written"));
+  const test::FullDisk full(100);
+  CHECK_THROWS_WITH(canvas.save(folder / "c.png"), Catch::Contains("c.png: cannot be written"));
+  for (const std::string left : {"b.png.part", "c.png", "c.png.part"})
+    CHECK_FALSE(std::filesystem::exists(folder / left));
+}

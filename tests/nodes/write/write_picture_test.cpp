@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "nodes/write/painter.hpp"
+#include "tests/nodes/write/picture.hpp"
+#include "tests/nodes/write/writer.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace posevote;
+using posevote::test::make_detection;
+using posevote::test::make_library;
+using posevote::test::make_patch;
+using posevote::test::Picture;
+using posevote::test::run_writer;
+using posevote::test::TemporaryFolder;
+
+namespace {
+
+Picture draw(const Cloud& scan, const Detections& detections) {
+  const TemporaryFolder folder;
+  run_writer("write_picture", "1", {0, "shelf", folder.path(), 0}, scan, detections,
+             make_library());
+  return Picture(folder / "pictures/shelf.png");
+}
+
+bool is_red(const Rgb& pixel) { return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2]; }
+bool is_grey(const Rgb& pixel) { return std::abs(pixel[0] - pixel[2]) < 8 && pixel[0] < 220; }
+
+/// Mean place of the pixels that fulfil `test`, in parts of the width, and their number.
+template <class Test>
+Eigen::Vector3d middle_of(const Picture& picture, const Test& test) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (test(picture.at(x, y))) sum += Eigen::Vector3d(x, y, 1);
+  return {sum.x() / sum.z() / picture.width, sum.y() / sum.z() / picture.width, sum.z()};
+}
+
+/// A wall of 40 cm at 1 m, finer in one direction than in the other, as many scans are.
+Cloud wall() {
+  Cloud scan = make_patch(101, 0.004F, 1);
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i)
+    scan.points(i, 2) += 1e-4F * static_cast<float>(i % 7);
+  return scan;
+}
+
+}  // namespace
+
+TEST_CASE("write_picture shows the scan whole and the model where it was found", "[write]") {
+  const Picture picture = draw(wall(), {{make_detection({0.1, -0.05, 0.99})}});
+  CHECK(picture.width == 1280);
+  CHECK(picture.height == Approx(1280).margin(3));
+  const Eigen::Vector3d red = middle_of(picture, is_red);
+  // The wall and a margin of 3 % on either side fill the picture; the model is 1 % nearer.
+  CHECK(red.x() == Approx(0.5 + 0.1 / 0.99 / (0.4 * 1.06)).margin(0.01));
+  CHECK(red.y() == Approx(0.5 - 0.05 / 0.99 / (0.4 * 1.06)).margin(0.01));
+  const double side = 0.062 / 0.99 / (0.4 * 1.06) * 1280;
+  CHECK(red.z() > 0.75 * side * side);  // its label covers some of it
+  CHECK(red.z() < 1.1 * side * side);
+  int holes = 0;
+  for (int y = 60; y < picture.height - 60; ++y)
+    for (int x = 60; x < picture.width - 60; ++x) holes += picture.at(x, y)[0] > 240;
+  CHECK(holes == 0);
+}
+
+TEST_CASE("write_picture: a model on the surface is seen, one behind it is not", "[write]") {
+  CHECK(middle_of(draw(wall(), {{make_detection({0, 0, 1.0})}}), is_red).z() > 10000);
+  // Only its label's letters are red.
+  CHECK(middle_of(draw(wall(), {{make_detection({0, 0, 1.05})}}), is_red).z() < 2000);
+  Detection turned = make_detection({0, 0, 0.9});  // its back to the sensor
+  turned.T_scene_model.linear() = Eigen::Vector3d(-1, 1, -1).asDiagonal();
+  CHECK(middle_of(draw(wall(), {{turned}}), is_red).z() < 2000);
+}
+
+TEST_CASE("the picture is upright for cameras that look along +z and along -z", "[write]") {
+  for (const float look : {1.0F, -1.0F}) {
+    Cloud scan = wall();
+    scan.points.rightCols(2) *= look;  // y down and z forward; or y up and z back
+    const View view = view_of(scan, 100);
+    const Eigen::Vector3f up_right(0.1F, -0.1F * look, look);
+    const Eigen::Vector2f at = view.in_picture(view.in_view(up_right));
+    CHECK(at.x() > 60);
+    CHECK(at.y() < 40);
+    CHECK(view.in_view(up_right).z() > 0);
+    CHECK(view.axes.determinant() == Approx(1));
+  }
+}
+
+TEST_CASE("outliers do not shrink the scan, nor is a slender one cut", "[write]") {
+  Cloud scan = wall();
+  const float scale = view_of(scan, 100).scale;
+  scan.points.row(0) << 50, 3, 1;
+  CHECK(view_of(scan, 100).scale > 0.75F * scale);
+  Cloud tall = make_patch(101, 0.004F, 1);
+  tall.points.col(0) *= 0.1F;
+  const View view = view_of(tall, 100);
+  CHECK(view.height == 150);
+  for (const Eigen::Index corner : {Eigen::Index{0}, tall.points.rows() - 1}) {
+    const Eigen::Vector2f at = view.in_picture(view.in_view(tall.points.row(corner)));
+    CHECK((at.array() >= 0).all());
+    CHECK(at.x() <= 100);
+    CHECK(at.y() <= 150);
+  }
+}
+
+TEST_CASE("spacing is that of the points, not of what was expected", "[write]") {
+  CHECK(spacing_of(make_patch(50, 0.004F, 1).points, 0.002F) == Approx(0.004));
+  CHECK(spacing_of(make_patch(50, 0.001F, 1).points, 0.002F) == Approx(0.001));
+  CHECK(spacing_of(PointMatrix(0, 3), 0.002F) == 0.002F);
+  CHECK(spacing_of(make_patch(3, 1, 1).points, 0) > 0);
+}
+
+TEST_CASE("labels of instances at one place do not cover each other", "[write]") {
+  const auto red_letters = [](const Detections& detections) {
+    Cloud far = make_patch(101, 0.004F, 1);
+    return middle_of(draw(far, detections), [](const Rgb& p) { return is_red(p); }).z();
+  };
+  // Behind the wall: nothing but labels. The first keeps every dot when a second one joins it.
+  const Detection behind = make_detection({0, 0, 1.2});
+  CHECK(red_letters({{behind, behind}}) == red_letters({{behind}}));
+}
+
+TEST_CASE("write_picture takes what is empty, not finite or without normals", "[write]") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  Detections odd{{make_detection({0, 0, 1}), make_detection({kNan, 0, 1}),
+                  make_detection({1e30, -1e30, 1}), make_detection({0, 0, -1}),
+                  make_detection({0, 0, 0})}};
+  odd.items.push_back(make_detection({0, 0, 1}));
+  odd.items.back().obj_id = 9;
+  odd.items[0].model = std::string(500, 'x');
+  Cloud bare = wall();
+  bare.normals.resize(0, 3);
+  CHECK(middle_of(draw(bare, {}), is_grey).z() > 1e6);
+  Cloud damaged = wall();
+  damaged.points.row(5).setConstant(std::numeric_limits<float>::quiet_NaN());
+  damaged.normals.topRows(50).setZero();
+  Cloud one_point = make_patch(1, 1, 1), at_sensor = make_patch(1, 1, 0);
+  for (const Cloud& scan : {Cloud(), bare, damaged, one_point, at_sensor})
+    CHECK(draw(scan, odd).width == 1280);
+}
+
+TEST_CASE("write_picture needs an output folder it can write to", "[write]") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(run_writer("write_picture", "1", {}, wall(), Detections(), make_library()),
+                  std::invalid_argument);
+  run_writer("write_picture", "0", {}, wall(), Detections(), make_library());
+  folder.write("pictures", "a file where the folder should be");
+  CHECK_THROWS_WITH(run_writer("write_picture", "1", {0, "shelf", folder.path(), 0}, wall(),
+                               Detections(), make_library()),
+                    Catch::Contains("pictures"));
+}
