@@ -35,6 +35,16 @@ struct TrainCommand {
 };
 int train_command(const TrainCommand& command);
 
+/// Options of `simulate` and `evaluate`.
+struct SimulateCommand {
+  std::string spec, out;
+};
+int simulate_command(const SimulateCommand& command);
+struct EvaluateCommand {
+  std::string dataset, results, split = "test";
+};
+int evaluate_command(const EvaluateCommand& command);
+
 int check_command(const std::string& config, const std::vector<std::string>& set);
 int nodes_command(const std::string& name);
 int graph_command(const std::string& config, const std::vector<std::string>& set);

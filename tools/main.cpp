@@ -79,6 +79,8 @@ void add_run(CLI::App& app, RunCommand& run) {
 struct Options {
   RunCommand run;
   TrainCommand train;
+  SimulateCommand simulate;
+  EvaluateCommand evaluate;
   std::string config, node, docs_file;
   std::vector<std::string> set;
 };
@@ -91,6 +93,25 @@ void add_train(CLI::App& app, TrainCommand& train) {
       ->type_name("FILE");
   command->add_option("--out", train.out, "The library's file")->required()->type_name("FILE");
   add_set(command, train.set);
+}
+
+void add_simulate(CLI::App& app, SimulateCommand& simulate) {
+  CLI::App* command = app.add_subcommand("simulate", "Make models and cluttered scans of them");
+  command->footer(
+      "Example:\n  posevote simulate configs/demo_scenes.yaml --out out/scenes\n\n"
+      "Writes a data set in BOP layout, with true poses, and PLY scans in metres beside it.");
+  command->add_option("spec", simulate.spec, "What to make (YAML)")->required();
+  command->add_option("--out", simulate.out, "A new folder for the data set")
+      ->required()
+      ->type_name("DIR");
+}
+
+void add_evaluate(CLI::App& app, EvaluateCommand& evaluate) {
+  CLI::App* command =
+      app.add_subcommand("evaluate", "Compare results with a data set's true poses");
+  command->add_option("dataset", evaluate.dataset, "A data set in BOP layout")->required();
+  command->add_option("results", evaluate.results, "The results.csv of a run on it")->required();
+  command->add_option("--split", evaluate.split, "Split of the data set")->capture_default_str();
 }
 
 void add_inspection(CLI::App& app, Options& options) {
@@ -111,6 +132,9 @@ int dispatch(const CLI::App& app, const Options& options) {
     return with_threads(options.run.threads, [&] { return run_command(options.run, interrupted); });
   if (app.got_subcommand("train"))
     return with_threads(0, [&] { return train_command(options.train); });
+  if (app.got_subcommand("simulate"))
+    return with_threads(0, [&] { return simulate_command(options.simulate); });
+  if (app.got_subcommand("evaluate")) return evaluate_command(options.evaluate);
   if (app.got_subcommand("check")) return check_command(options.config, options.set);
   if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
   if (app.got_subcommand("nodes")) return nodes_command(options.node);
@@ -129,6 +153,8 @@ int main(int argc, char** argv) {
   Options options;
   add_run(app, options.run);
   add_train(app, options.train);
+  add_simulate(app, options.simulate);
+  add_evaluate(app, options.evaluate);
   add_inspection(app, options);
   try {
     app.parse(argc, argv);

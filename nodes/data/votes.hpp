@@ -24,7 +24,7 @@ struct VoteSet {
 
 /// The kernel density of every vote of one VoteSet (paper, eq. 10).
 struct VoteDensity {
-  std::vector<double> density;  ///< >= 1: a vote is its own neighbour
+  std::vector<double> density;  ///< >= 1: a vote is its own neighbour; 0: not a finite pose
   std::shared_ptr<const PoseIndex> index;  ///< of the same votes: neighbourhoods and subtraction
 };
 

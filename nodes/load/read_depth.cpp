@@ -53,7 +53,8 @@ Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const 
   for (std::size_t i = 0; i < image.values.size(); ++i) {
     const float z = depths[image.values[i]];
     if (z <= 0) continue;
-    const auto u = static_cast<double>(i % image.width), v = static_cast<double>(i / image.width);
+    const std::size_t row = i / image.width, column = i % image.width;
+    const auto u = static_cast<double>(column), v = static_cast<double>(row);
     cloud.points.row(count++) << static_cast<float>((u - camera.cx) * z / camera.fx),
         static_cast<float>((v - camera.cy) * z / camera.fy), z;
   }

@@ -51,19 +51,24 @@ std::optional<Columns> find_columns(const PcdHeader& header, const std::string& 
   return columns;
 }
 
+template <class T>
+double load_as(const char* bytes) {
+  return static_cast<double>(load_bytes<T>(bytes));
+}
+
 double value_at(const char* bytes, const PcdField& field) {
+  const bool is_signed = field.type == 'I', is_float = field.type == 'F';
   switch (field.size) {
     case 1:
-      return field.type == 'I' ? load_bytes<std::int8_t>(bytes) : load_bytes<std::uint8_t>(bytes);
+      return is_signed ? load_as<std::int8_t>(bytes) : load_as<std::uint8_t>(bytes);
     case 2:
-      return field.type == 'I' ? load_bytes<std::int16_t>(bytes) : load_bytes<std::uint16_t>(bytes);
+      return is_signed ? load_as<std::int16_t>(bytes) : load_as<std::uint16_t>(bytes);
     case 4:
-      if (field.type == 'F') return static_cast<double>(load_bytes<float>(bytes));
-      return field.type == 'I' ? load_bytes<std::int32_t>(bytes) : load_bytes<std::uint32_t>(bytes);
+      if (is_float) return load_as<float>(bytes);
+      return is_signed ? load_as<std::int32_t>(bytes) : load_as<std::uint32_t>(bytes);
     default:
-      if (field.type == 'F') return load_bytes<double>(bytes);
-      return field.type == 'I' ? static_cast<double>(load_bytes<std::int64_t>(bytes))
-                               : static_cast<double>(load_bytes<std::uint64_t>(bytes));
+      if (is_float) return load_as<double>(bytes);
+      return is_signed ? load_as<std::int64_t>(bytes) : load_as<std::uint64_t>(bytes);
   }
 }
 

@@ -42,7 +42,8 @@ class CornerMerger {
   };
   struct SameBits {  // NaN too must be found again
     bool operator()(const Triple& a, const Triple& b) const {
-      return std::memcmp(&a, &b, sizeof a) == 0;
+      using Bits = std::array<std::uint64_t, 3>;
+      return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
     }
   };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/segment/measure_fit.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -10,11 +12,14 @@
 namespace posevote {
 namespace {
 
+constexpr double kConvincing = 0.1;  // inlier fraction x relief at which evidence is 63 %
+
 enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
 
 struct Judged {
   Verdict verdict = Verdict::kAway;
   double residual = 0;
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
 
 Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& view,
@@ -22,21 +27,31 @@ Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& v
   if (!scan.faces_sensor(p)) return {};
   if (const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, tolerance))
     return {Verdict::kSupported,
-            static_cast<double>((p.point - partner->point).dot(partner->normal))};
+            static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
   const float measured = view.measured_range(p.point);
-  if (measured == 0) return {Verdict::kUnseen, 0};
+  if (measured == 0) return {Verdict::kUnseen};
   const float before = measured - (p.point - viewpoint).norm();
-  if (before > 2 * tolerance) return {Verdict::kContradicted, 0};
-  return {before < -2 * tolerance ? Verdict::kHidden : Verdict::kMismatched, 0};
+  if (before > 2 * tolerance) return {Verdict::kContradicted};
+  return {before < -2 * tolerance ? Verdict::kHidden : Verdict::kMismatched};
+}
+
+/// 1 - the largest eigenvalue of the mean of n n^T.
+double relief_of(const Eigen::Matrix3d& sum_of_squares, std::size_t count) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum_of_squares /
+                                                              static_cast<double>(count));
+  return std::max(0.0, 1 - solver.eigenvalues()[2]);
 }
 
 Fit count(const std::vector<Judged>& points) {
   Fit fit;
   double squared = 0;
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
   for (const Judged& point : points) {
     if (point.verdict == Verdict::kAway) continue;
     ++fit.facing;
     squared += point.residual * point.residual;
+    const Eigen::Vector3d normal = point.normal.cast<double>();
+    normals += normal * normal.transpose();
     fit.supported += point.verdict == Verdict::kSupported;
     fit.contradicted += point.verdict == Verdict::kContradicted;
     fit.mismatched += point.verdict == Verdict::kMismatched;
@@ -46,29 +61,44 @@ Fit count(const std::vector<Judged>& points) {
   if (fit.supported == 0) return fit;
   fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
   fit.rmse = std::sqrt(squared / static_cast<double>(fit.supported));
+  fit.relief = relief_of(normals, fit.supported);
   return fit;
 }
 
 }  // namespace
 
 Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& view,
-                const Eigen::Isometry3d& T_scene_model, float tolerance) {
+                const Eigen::Isometry3d& T_scene_model, float tolerance, Eigen::Index samples) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  std::vector<Judged> points(static_cast<std::size_t>(model.points.rows()));
+  const Eigen::Index stride = samples > 0 ? model.points.rows() / samples + 1 : 1;
+  std::vector<Judged> points(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
-    const OrientedPoint p = posed_point(model, static_cast<Eigen::Index>(i), T);
+    const OrientedPoint p = posed_point(model, static_cast<Eigen::Index>(i) * stride, T);
     points[i] = judge(p, scan, view, scan.viewpoint(), tolerance);
   });
   return count(points);
 }
 
+// score = agreement x evidence.
+//
+// Agreement is the share of supporters among the points that take a side. Hidden points take none,
+// so a true pose of which a tenth is visible still agrees. A point that the sensor saw through
+// speaks fully against the pose; one that met another surface or no measurement counts half,
+// because noise, clutter in contact and drop-outs do that to true poses too.
+//
+// Agreement alone would let a body sunk into a table score high: its cap is supported, the rest is
+// hidden. Evidence is therefore what the support could only show by fitting: the supported share of
+// what faces the sensor, times the relief of the scan there. Measured on bin-picking scans, false
+// poses on flat ground reach inliers 0.16 x relief 0.015, true poses 0.35..0.7 x 0.3..0.5; on a
+// laser scan 0.4..0.75 x 0.3..0.5 where false ones stay below 0.15 x 0.3. Both factors are ratios,
+// so that the score does not depend on the object's size or the sampling.
 double fit_score(const Fit& fit) {
   if (fit.supported == 0) return 0;
   const auto supported = static_cast<double>(fit.supported);
   const double against = static_cast<double>(fit.contradicted) +
                          0.5 * static_cast<double>(fit.mismatched + fit.unseen);
   const double agreement = supported / (supported + against);
-  const double evidence = 1 - std::exp(-fit.inlier_fraction / 0.1);
+  const double evidence = 1 - std::exp(-fit.inlier_fraction * fit.relief / kConvincing);
   return agreement * evidence;
 }
 

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/segment/scan_surface.hpp"
 
+#include <algorithm>
+
 namespace posevote {
 namespace {
 
 constexpr float kMinFacingCosine = 0.1F;  // sensors measure grazing surfaces badly or not at all
 constexpr float kMinNormalCosine = 0.7F;  // 45 deg
-
-std::vector<Eigen::Index> left_over(const Cloud& scan, const std::vector<char>& explained) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
-    const bool usable = scan.points.row(i).allFinite() && scan.normals.row(i).squaredNorm() > 0.5F;
-    if (usable && (explained.empty() || !explained[static_cast<std::size_t>(i)])) rows.push_back(i);
-  }
-  return rows;
-}
 
 }  // namespace
 
@@ -23,17 +16,24 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
           T.linear() * Eigen::Vector3f(cloud.normals.row(i).transpose())};
 }
 
-ScanSurface::ScanSurface(const Cloud& scan, const std::vector<char>& explained, bool single_view,
-                         float cell)
-    : ScanSurface(left_over(scan, explained), scan, single_view, cell) {}
-
-ScanSurface::ScanSurface(const std::vector<Eigen::Index>& rows, const Cloud& scan,
-                         bool single_view, float cell)
-    : points_(scan.points(rows, Eigen::all)),
-      normals_(scan.normals(rows, Eigen::all)),
+ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float cell)
+    : points_(scan.points),
+      normals_(scan.normals),
+      gone_(static_cast<std::size_t>(scan.points.rows()), 0),
       viewpoint_(scan.viewpoint),
       single_view_(single_view),
-      grid_(points_, cell) {}
+      cell_(cell),
+      grid_(points_, cell) {
+  for (std::size_t i = 0; i < gone_.size(); ++i) {
+    const bool usable = normals_.row(static_cast<Eigen::Index>(i)).squaredNorm() > 0.5F;
+    gone_[i] = static_cast<char>(!usable);
+  }
+}
+
+void ScanSurface::take_out(const std::vector<char>& explained) {
+  for (std::size_t i = 0; i < gone_.size(); ++i)
+    gone_[i] = static_cast<char>(gone_[i] | explained[i]);
+}
 
 bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
   if (!single_view_) return p.normal.squaredNorm() > 0;
@@ -41,9 +41,24 @@ bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
   return p.normal.dot(to_sensor) > kMinFacingCosine * to_sensor.norm();
 }
 
+std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
+                                                   float distance) const {
+  std::optional<Neighbour> best;
+  // Most points of a good pose have their partner close by: look there first.
+  for (const float reach : {std::min(distance, 0.5F * cell_), distance}) {
+    grid_.for_each_within(point, reach, [this, &best](std::uint32_t index, float squared) {
+      if (gone_[index]) return;
+      if (!best || squared < best->squared || (squared == best->squared && index < best->index))
+        best = Neighbour{index, squared};
+    });
+    if (best) break;
+  }
+  return best;
+}
+
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,
                                                              float distance) const {
-  const std::optional<Neighbour> nearest = grid_.nearest(p.point, distance);
+  const std::optional<Neighbour> nearest = nearest_left(p.point, distance);
   if (!nearest) return std::nullopt;
   const auto row = static_cast<Eigen::Index>(nearest->index);
   const Eigen::Vector3f normal = normals_.row(row).transpose();

@@ -21,15 +21,17 @@ struct OrientedPoint {
 /// Row `i` of a cloud, moved by T.
 OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T);
 
-/// Immutable once built.
+/// Reading is safe from many threads.
 class ScanSurface {
  public:
-  /// The points of `scan` that are not `explained` (empty: none is) and have a normal. `single_view`:
-  /// whether the scan is what one sensor at its viewpoint saw (RangeView::usable); if not, a point
-  /// counts as visible whichever way it looks. `cell`: about the distance that is asked for most [m].
-  ScanSurface(const Cloud& scan, const std::vector<char>& explained, bool single_view, float cell);
+  /// The points of `scan`; those without a normal are never found. `single_view`: whether the scan
+  /// is what one sensor at its viewpoint saw (RangeView::usable); if not, a point counts as visible
+  /// whichever way it looks. `cell`: about the distance that is asked for most [m].
+  ScanSurface(const Cloud& scan, bool single_view, float cell);
 
-  bool empty() const { return points_.rows() == 0; }
+  /// From now on, points with explained[row] are not found either.
+  void take_out(const std::vector<char>& explained);
+
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
   /// Whether a surface with this orientation turns its outside to the sensor.
   bool faces_sensor(const OrientedPoint& p) const;
@@ -37,12 +39,13 @@ class ScanSurface {
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
 
  private:
-  ScanSurface(const std::vector<Eigen::Index>& rows, const Cloud& scan, bool single_view,
-              float cell);
+  std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
 
   PointMatrix points_, normals_;
+  std::vector<char> gone_;  // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;
   bool single_view_;
+  float cell_;
   PointGrid grid_;
 };
 

@@ -86,7 +86,7 @@ void cast_circle(const OrientedPoint& model, const Eigen::Vector3d& center,
   const Eigen::Vector3d r = center - (model.point - delta * n);  // eq. 2
   const Eigen::Vector3d q = scene.point - delta * n_scene;       // eq. 3
   const double radius = r.norm();
-  // Below a nanometre a float coordinate holds no direction any more; made exactly orthogonal to n.
+  // Below a nanometre r is what rounding left over, not a direction.
   const bool degenerate = radius < 1e-9;
   const Eigen::Vector3d e = degenerate ? n.unitOrthogonal() : Eigen::Vector3d(r / radius);
   const Eigen::Vector3d u = n_scene.unitOrthogonal();

@@ -34,6 +34,8 @@ std::vector<Batch> make_batches(const SortedVotes& queries) {
 struct Box {
   std::array<float, 3> low, high;
 
+  /// Never above that from any point inside: rounding is monotone, and the order of operations that
+  /// of the kernel's squared_distance.
   float squared_distance(const VotePoint& p) const {
     const float dx = std::max({low[0] - p.tx, p.tx - high[0], 0.0F});
     const float dy = std::max({low[1] - p.ty, p.ty - high[1], 0.0F});
@@ -108,20 +110,18 @@ void BatchWorker::collect(const Batch& batch) {
   std::size_t total = 0;
   for (const VoteRun& run : runs) total += run.end - run.begin;
   if (total == 0) return;
-  // The box's distance is a lower bound of the predicate's up to rounding.
   const Box box = bounding_box(queries_, batch.begin, batch.end);
-  const float limit = kernel_.max_dt2 * (1 + 1e-5F);
   near_.resize(total);
   std::size_t count = 0;
   for (const VoteRun& run : runs)
     for (std::uint32_t i = run.begin; i < run.end; ++i) {
       near_[count] = i;
-      count += box.squared_distance(others_.votes[i].point) <= limit;
+      count += box.squared_distance(others_.votes[i].point) <= kernel_.max_dt2;
     }
   near_.resize(count);
 }
 
-/// About one other per rotation cell is enough; for few queries sorting does not pay at all.
+/// Cells beyond half the number of others are wasted; for few queries sorting does not pay at all.
 void BatchWorker::choose_grid(std::size_t query_count) {
   const auto count = static_cast<double>(near_.size());
   grid_ = 0;

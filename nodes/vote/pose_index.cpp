@@ -56,6 +56,9 @@ std::vector<double> PoseIndex::densities() const {
 
 void PoseIndex::subtract(const std::vector<std::uint32_t>& removed, const std::vector<char>& alive,
                          std::vector<double>& density) const {
+  if (alive.size() != data_->vote_count || density.size() != data_->vote_count)
+    throw std::invalid_argument("subtraction from " + std::to_string(density.size()) +
+                                " densities, expected " + std::to_string(data_->vote_count));
   const SortedVotes queries = select_votes(data_->sorted, alive);
   for (std::size_t v = 0; v < density.size(); ++v)
     if (!alive[v]) density[v] = 0;
@@ -66,7 +69,7 @@ void PoseIndex::subtract(const std::vector<std::uint32_t>& removed, const std::v
     return;
   }
   std::vector<char> gone(data_->vote_count, 0);
-  for (const std::uint32_t v : removed) gone[v] = 1;
+  for (const std::uint32_t v : removed) gone.at(v) = 1;
   const std::vector<std::uint64_t> sums = density_sums(queries, select_votes(data_->sorted, gone));
   for (std::size_t i = 0; i < sums.size(); ++i) density[queries.numbers[i]] -= density_of(sums[i]);
 }

@@ -27,7 +27,7 @@ RotationCode encode_rotation(VotePoint& vote);
 struct RotationReach {
   double sine;         ///< of half the angle, widened so that rounding cannot lose a neighbour
   double chart_limit;  ///< a chart is out of reach where the centre's component is below this
-  int cells_per_axis;  ///< of a grid whose cells are about half as wide as the reach
+  int cells_per_axis;  ///< measured: finer grids cut rows too short for wide vectors
 };
 
 RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth);

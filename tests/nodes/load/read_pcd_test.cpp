@@ -121,14 +121,37 @@ TEST_CASE("PCD: ascii with any types, fields of several values and padding", "[l
   CHECK(mesh.normals.empty());
 }
 
+namespace {
+
+/// What the reader makes of one T as x, behind padding and before y and z.
+template <class T>
+double read_x(T value, char type) {
+  const std::string size = std::to_string(sizeof(T));
+  std::string bytes = "FIELDS _ x y z\nSIZE 1 " + size + " 4 4\nTYPE U " + type +
+                      " F F\nCOUNT 3 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA binary\nabc";
+  append(bytes, value);
+  append(bytes, 1.0F);
+  append(bytes, 2.0F);
+  const RawMesh mesh = read_pcd(bytes);
+  REQUIRE(mesh.points.size() == 1);
+  CHECK(mesh.points[0][1] == 1);
+  CHECK(mesh.points[0][2] == 2);
+  return mesh.points[0][0];
+}
+
+}  // namespace
+
 TEST_CASE("PCD: binary with any types", "[load][pcd]") {
-  std::string bytes =
-      "FIELDS z _ x y\nSIZE 8 1 2 4\nTYPE F U I U\nCOUNT 1 3 1 1\nWIDTH 1\nHEIGHT 1\nDATA binary\n";
-  append(bytes, 0.25);
-  bytes += "abc";
-  append<std::int16_t>(bytes, -7);
-  append<std::uint32_t>(bytes, 4000000000U);
-  CHECK(read_pcd(bytes).points == std::vector<Triple>{{-7, 4e9, 0.25}});
+  CHECK(read_x<std::int8_t>(-7, 'I') == -7);
+  CHECK(read_x<std::uint8_t>(200, 'U') == 200);
+  CHECK(read_x<std::int16_t>(-700, 'I') == -700);
+  CHECK(read_x<std::uint16_t>(60000, 'U') == 60000);
+  CHECK(read_x<std::int32_t>(-70000, 'I') == -70000);
+  CHECK(read_x<std::uint32_t>(4000000000U, 'U') == 4e9);
+  CHECK(read_x<std::int64_t>(-70000000000, 'I') == -7e10);
+  CHECK(read_x<std::uint64_t>(1ULL << 63U, 'U') == std::ldexp(1, 63));
+  CHECK(read_x(0.5F, 'F') == 0.5);
+  CHECK(read_x(0.25, 'F') == 0.25);
 }
 
 TEST_CASE("PCD: compressed data goes field by field, without padding fields", "[load][pcd]") {

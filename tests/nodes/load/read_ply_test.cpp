@@ -102,6 +102,26 @@ TEST_CASE("PLY: binary of both orders, any types, extra elements and lists", "[l
   }
 }
 
+TEST_CASE("PLY: coordinates of every type", "[load][ply]") {
+  const auto read_x = [](const std::string& type, auto value) {
+    std::string bytes = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty " + type +
+                        " x\nproperty char y\nproperty char z\nend_header\n";
+    append(bytes, value, std::endian::big);
+    const RawMesh mesh = read_ply(bytes + "ab");
+    REQUIRE(mesh.points.size() == 1);
+    CHECK(mesh.points[0][2] == 'b');
+    return mesh.points[0][0];
+  };
+  CHECK(read_x("char", std::int8_t{-7}) == -7);
+  CHECK(read_x("uint8", std::uint8_t{200}) == 200);
+  CHECK(read_x("int16", std::int16_t{-700}) == -700);
+  CHECK(read_x("ushort", std::uint16_t{60000}) == 60000);
+  CHECK(read_x("int", std::int32_t{-70000}) == -70000);
+  CHECK(read_x("uint32", std::uint32_t{4000000000}) == 4e9);
+  CHECK(read_x("float32", 0.5F) == 0.5);
+  CHECK(read_x("double", 0.25) == 0.25);
+}
+
 TEST_CASE("PLY: binary cut off anywhere is an error", "[load][ply]") {
   const MixedFile file(std::endian::big);
   const std::string whole = file.header + file.body;

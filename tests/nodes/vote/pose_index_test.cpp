@@ -164,6 +164,7 @@ TEST_CASE("votes that are no poses count nowhere", "[vote]") {
   index.subtract({0, 1}, {0, 0, 1, 1, 1, 1, 1}, density);
   CHECK(density == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
   CHECK(index.neighbours({0, 0, nan}, identity).empty());
+  CHECK_THROWS_AS(index.subtract({0}, {0}, density), std::invalid_argument);
 }
 
 TEST_CASE("impossible bandwidths are refused", "[vote]") {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/scan_state.hpp"
+
+#include "nodes/segment/explain_points.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr float kSearchCell = 2;  // x resolution
+
+}  // namespace
+
+ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float resolution_m)
+    : cloud(scan),
+      features(scan_features),
+      resolution(resolution_m),
+      view(scan, resolution_m),
+      surface(scan, view.usable(), kSearchCell * resolution_m),
+      feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0) {}
+
+void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                         float distance) {
+  const PointGrid grid(model.cloud.points, distance);
+  surface.take_out(
+      explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance));
+  const std::vector<char> now =
+      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
+}
+
+}  // namespace posevote

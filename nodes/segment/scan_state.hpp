@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scan as the segmentation goes on: what has been explained, what is left.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "nodes/data/model.hpp"
+#include "nodes/segment/range_view.hpp"
+#include "nodes/segment/scan_surface.hpp"
+
+namespace posevote {
+
+struct ScanState {
+  /// Keeps references to both.
+  ScanState(const Cloud& scan, const FeatureSet& scan_features, float resolution_m);
+
+  /// Takes what a posed model explains, up to `distance` [m] from its surface, out of the scan's
+  /// points and features. Free space stays what it is: `view` keeps all points.
+  void take_out(const Model& model, const Eigen::Isometry3d& T_scene_model, float distance);
+
+  const Cloud& cloud;
+  const FeatureSet& features;
+  float resolution;  // [m]
+  RangeView view;
+  ScanSurface surface;
+  std::vector<char> feature_explained;  // per scene feature
+};
+
+}  // namespace posevote

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluate/results_csv.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "graph/schema.hpp"
+#include "tools/evaluate/rotation.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time";
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  if (!text.empty() && text.back() == separator) parts.emplace_back();
+  return parts;
+}
+
+template <class T>
+T parse(const std::string& text, const std::string& name) {
+  const std::optional<T> value = graph::Scalar<T>::parse(text);
+  if (!value || !std::isfinite(static_cast<double>(*value)))
+    throw std::invalid_argument(name + " is '" + text + "', expected a finite " +
+                                graph::Scalar<T>::kName);
+  return *value;
+}
+
+template <std::size_t N>
+std::array<double, N> parse_list(const std::string& text, const std::string& name) {
+  std::vector<std::string> parts = split(text, ' ');
+  std::erase(parts, "");
+  if (parts.size() != N)
+    throw std::invalid_argument(name + " has " + std::to_string(parts.size()) +
+                                " numbers, expected " + std::to_string(N));
+  std::array<double, N> values;
+  for (std::size_t i = 0; i < N; ++i) values[i] = parse<double>(parts[i], name);
+  return values;
+}
+
+FoundInstance parse_row(const std::string& text) {
+  const std::vector<std::string> fields = split(text, ',');
+  if (fields.size() != 7)
+    throw std::invalid_argument("has " + std::to_string(fields.size()) +
+                                " fields, expected 7: " + kHeader);
+  FoundInstance found;
+  found.scene_id = parse<int>(fields[0], "scene_id");
+  found.im_id = parse<int>(fields[1], "im_id");
+  found.obj_id = parse<int>(fields[2], "obj_id");
+  found.score = parse<double>(fields[3], "score");
+  const std::array<double, 3> t = parse_list<3>(fields[5], "t");
+  found.T_scene_model =
+      make_pose(parse_list<9>(fields[4], "R"), Eigen::Vector3d(t[0], t[1], t[2]) * 0.001);
+  parse<double>(fields[6], "time");
+  return found;
+}
+
+}  // namespace
+
+std::vector<FoundInstance> read_results_csv(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file))
+    throw std::runtime_error(file + ": cannot be read: no such file?");
+  std::vector<FoundInstance> rows;
+  int line = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++line;
+    if (text.ends_with('\r')) text.pop_back();
+    if (text.empty() || (line == 1 && text == kHeader)) continue;
+    try {
+      rows.push_back(parse_row(text));
+      rows.back().line = line;
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(file + ":" + std::to_string(line) + ": " + error.what());
+    }
+  }
+  if (line == 0)
+    throw std::runtime_error(file + ": is empty, expected at least the line " + kHeader);
+  return rows;
+}
+
+}  // namespace posevote

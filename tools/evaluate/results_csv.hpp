@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace posevote {
+
+/// A row of a BOP results file.
+struct FoundInstance {
+  int line = 0;  ///< of the file, from 1
+  int scene_id = 0, im_id = 0, obj_id = 0;
+  double score = 0;
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
+};
+
+/// Reads `scene_id,im_id,obj_id,score,R,t,time` (R: 9 numbers row by row; t in mm; both separated
+/// by spaces). Throws std::runtime_error "file:line: what is wrong" for the first bad row.
+std::vector<FoundInstance> read_results_csv(const std::string& file);
+
+}  // namespace posevote

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+namespace posevote {
+
+/// Makes a pose of 9 numbers, row by row, and a translation. Throws std::invalid_argument where
+/// the numbers are not finite or no rotation (to 1e-2: published files are rounded); an equal or
+/// near rotation is taken.
+Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
+                            const Eigen::Vector3d& translation);
+
+/// Angle of the rotation that carries a into b, in [0, pi]; also right for tiny angles.
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
+
+}  // namespace posevote

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/bop_writer.hpp"
+
+#include <png.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+#include "nodes/write/write_ply.hpp"
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr int kSceneId = 1;
+constexpr double kLeastVisible = 0.1;  // BOP's targets leave out what is seen less
+
+std::string six_digits(int number) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%06d", number);
+  return text;
+}
+
+void write_file(const fs::path& file, const std::string& bytes) {
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << bytes;
+  stream.close();
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+/// `{"key": [...], ...}` with one key a line, as BOP's own files.
+std::string lines(const ordered_json& json) {
+  std::string text = "{";
+  for (const auto& [key, value] : json.items())
+    text += (text.size() > 1 ? ",\n  \"" : "\n  \"") + key + "\": " + value.dump();
+  return text + "\n}\n";
+}
+
+std::string encode_png(const DepthImage& depth) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(depth.width);
+  image.height = static_cast<png_uint_32>(depth.height);
+  image.format = PNG_FORMAT_LINEAR_Y;  // 16-bit grey, values as they are
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, depth.values.data(), 0, nullptr))
+    throw std::runtime_error(std::string("encoding a depth image: ") + image.message);
+  bytes.resize(size);
+  return bytes;
+}
+
+/// Rounded to 1e-9: beyond, mathematics libraries differ, and files should not.
+double rounded(double value) { return std::round(value * 1e9) / 1e9 + 0.0; }
+
+/// Largest distance between two points.
+double diameter(const PointMatrix& points) {
+  float most = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    most = std::max(most, (points.rowwise() - points.row(i)).rowwise().squaredNorm().maxCoeff());
+  return std::sqrt(double{most});
+}
+
+ordered_json box(const PixelBox& box) { return {box.x, box.y, box.width, box.height}; }
+
+ordered_json pose(const Body& body, const Eigen::Isometry3d& T_world_sensor) {
+  const Eigen::Isometry3d T_sensor_model = T_world_sensor.inverse() * body.T_world_body;
+  std::vector<double> rotation, translation;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      rotation.push_back(rounded(T_sensor_model.linear()(row, column)));
+    translation.push_back(rounded(T_sensor_model.translation()[row] * 1000));
+  }
+  return {{"cam_R_m2c", rotation}, {"cam_t_m2c", translation}, {"obj_id", body.obj_id}};
+}
+
+ordered_json info(const BodyView& view) {
+  return {{"bbox_obj", box(view.box_alone)}, {"bbox_visib", box(view.box_visible)},
+          {"px_count_all", view.alone},      {"px_count_valid", view.valid},
+          {"px_count_visib", view.visible},  {"visib_fract", rounded(view.fraction())}};
+}
+
+}  // namespace
+
+BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
+  if (fs::exists(out_) && (!fs::is_directory(out_) || !fs::is_empty(out_)))
+    throw std::invalid_argument(out_.string() + ": is not an empty folder; choose another --out");
+  for (const fs::path& folder :
+       {out_ / "models", out_ / "test" / six_digits(kSceneId) / "depth", out_ / "scans"})
+    fs::create_directories(folder);  // std::filesystem_error is a runtime_error that names it
+}
+
+void BopWriter::add_model(int obj_id, const Cloud& mesh) {
+  write_ply(out_ / "models" / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
+  ordered_json entry{{"diameter", rounded(diameter(mesh.points) * 1000)}};
+  const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
+  const Eigen::RowVector3f size = mesh.points.colwise().maxCoeff() - low;
+  const std::string axes[3] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) entry["min_" + axes[axis]] = rounded(low[axis] * 1000.0);
+  for (int axis = 0; axis < 3; ++axis) entry["size_" + axes[axis]] = rounded(size[axis] * 1000.0);
+  models_info_[std::to_string(obj_id)] = entry;
+}
+
+void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
+                          const Eigen::Isometry3d& T_world_sensor, const Scan& scan) {
+  const int im_id = images_++;
+  const std::string key = std::to_string(im_id), name = six_digits(im_id);
+  const Camera& camera = sensor.camera;
+  write_file(out_ / "test" / six_digits(kSceneId) / "depth" / (name + ".png"),
+             encode_png(scan.depth));
+  write_ply(out_ / "scans" / (name + ".ply"), points_of(scan.depth, camera));
+  cameras_[key] = {{"cam_K", {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0}},
+                   {"depth_scale", camera.depth_scale}};
+  gt_[key] = gt_info_[key] = ordered_json::array();
+  std::map<int, int> seen;  // instances by obj_id
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].obj_id == 0) continue;
+    gt_[key].push_back(pose(bodies[i], T_world_sensor));
+    gt_info_[key].push_back(info(scan.views[i]));
+    if (scan.views[i].fraction() >= kLeastVisible) ++seen[bodies[i].obj_id];
+  }
+  for (const auto& [obj_id, count] : seen)
+    targets_.push_back(
+        {{"im_id", im_id}, {"inst_count", count}, {"obj_id", obj_id}, {"scene_id", kSceneId}});
+}
+
+void BopWriter::finish() const {
+  const fs::path scene = out_ / "test" / six_digits(kSceneId);
+  write_file(out_ / "models" / "models_info.json", lines(models_info_));
+  write_file(scene / "scene_camera.json", lines(cameras_));
+  write_file(scene / "scene_gt.json", lines(gt_));
+  write_file(scene / "scene_gt_info.json", lines(gt_info_));
+  write_file(out_ / "test_targets_bop19.json", targets_.dump(1) + "\n");
+}
+
+}  // namespace posevote

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes a data set in BOP layout (bop.felk.cvut.cz): models, depth images, ground truth; beside it
+// the same scans as PLY.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "nodes/data/cloud.hpp"
+#include "tools/simulate/scanner.hpp"
+
+namespace posevote {
+
+class BopWriter {
+ public:
+  /// Makes the folder. Throws std::invalid_argument where `out` exists and is no empty folder, and
+  /// std::runtime_error where it cannot be made.
+  explicit BopWriter(std::filesystem::path out);
+
+  void add_model(int obj_id, const Cloud& mesh);
+  /// The next image (0, 1 ...) of scene 1. Bodies with an obj_id of 0 are not part of the truth.
+  void add_image(const std::vector<Body>& bodies, const Sensor& sensor,
+                 const Eigen::Isometry3d& T_world_sensor, const Scan& scan);
+  /// Writes the lists of all models and images.
+  void finish() const;
+
+ private:
+  std::filesystem::path out_;
+  int images_ = 0;
+  nlohmann::ordered_json models_info_, cameras_, gt_, gt_info_;
+  nlohmann::ordered_json targets_ = nlohmann::ordered_json::array();
+};
+
+}  // namespace posevote

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace posevote {
+
+/// Makes models and cluttered scans of them, with the true poses, as a BOP data set and PLY scans
+/// in metres: what configs/demo_scenes.yaml describes, for example. The same file gives the same
+/// bytes, at any number of threads. Throws graph::ConfigError for problems of the file,
+/// std::invalid_argument where `out` is not empty and std::runtime_error where it cannot be
+/// written.
+void simulate(const std::string& spec_file, const std::filesystem::path& out);
+
+}  // namespace posevote

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What to simulate, read from YAML: see configs/demo_scenes.yaml.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace posevote {
+
+struct ModelSpec {
+  std::string shape;
+  int seed = 1;
+  double size = 0.2;  ///< longest side of the bounding box [m]
+};
+
+/// One image.
+struct SceneSpec {
+  std::string sensor = "laser";
+  std::vector<int> objects;  ///< obj_id of each instance
+  int clutter = 3;           ///< bodies that are no models
+  double radius = 0.15;      ///< within which bodies are dropped [m]
+  double distance = 0.9;     ///< from sensor to the middle of the table [m]
+  double elevation = 50;     ///< of the sensor above the table [deg]
+  double azimuth = 0;        ///< [deg]
+};
+
+struct Spec {
+  int seed = 1;
+  std::vector<ModelSpec> models;  ///< obj_id 1, 2 ...
+  std::vector<SceneSpec> scenes;
+};
+
+/// Throws graph::ConfigError with every problem of the file and its place.
+Spec read_spec(const std::string& file);
+
+}  // namespace posevote
