@@ -10,7 +10,8 @@ namespace posevote {
 
 // PCL's Debian binaries and our code must agree on how Eigen allocates; an -mavx build of code that
 // sees Eigen would not, and crashes when one side frees what the other allocated.
-static_assert(EIGEN_MALLOC_ALREADY_ALIGNED, "build without -march=native and -mavx: see nodes/data");
+static_assert(EIGEN_MALLOC_ALREADY_ALIGNED,
+              "build without -march=native and -mavx: see nodes/data");
 
 /// n x 3 floats, column-major: all x, then all y, then all z, so kernels read contiguous arrays.
 using PointMatrix = Eigen::Matrix<float, Eigen::Dynamic, 3>;

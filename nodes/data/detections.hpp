@@ -14,10 +14,10 @@ struct Detection {
   std::string model;
   double score = 0;              ///< in [0, 1], comparable between objects and scenes
   double density = 0;            ///< of the mode, raw (before anything was subtracted)
-  double runner_up_density = 0;  ///< highest raw density of the same object farther than 20 % of the
-                                 ///< bounding-box diagonal from the mode
-  double inlier_fraction = 0;    ///< of the model points that face the sensor, those on scene points
-  double rmse = 0;               ///< point-to-plane, over the inliers [m]
+  double runner_up_density = 0;  ///< highest raw density of the same object farther than 20 % of
+                                 ///< the bounding-box diagonal from the mode
+  double inlier_fraction = 0;  ///< of the model points that face the sensor, those on scene points
+  double rmse = 0;             ///< point-to-plane, over the inliers [m]
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
 };
 

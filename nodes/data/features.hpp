@@ -33,7 +33,8 @@ struct FeatureSet {
 
 struct Model;
 
-/// Matches of one object's features in one scene, scene to model, in ascending order of scene_feature.
+/// Matches of one object's features in one scene, scene to model, in ascending order of
+/// scene_feature.
 struct Correspondences {
   std::shared_ptr<const Model> model;
   std::vector<std::uint32_t> scene_feature;  ///< row of the scene's FeatureSet

@@ -18,8 +18,9 @@ struct Model {
   int obj_id = 1;
   Cloud cloud;          ///< downsampled, outward unit normals, in the model's own frame
   FeatureSet features;  ///< of a uniform subset of the cloud
-  Eigen::Vector3f center = Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
-  float diagonal = 0;                                ///< of that bounding box [m]
+  Eigen::Vector3f center =
+      Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
+  float diagonal = 0;           ///< of that bounding box [m]
 };
 
 /// All models of a run. Matching searches one index that holds every model's descriptors.

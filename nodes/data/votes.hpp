@@ -12,11 +12,12 @@ namespace posevote {
 
 class PoseIndex;  // nodes/vote/pose_index.hpp
 
-/// Poses in SE(3), structure of arrays. Vote v belongs to correspondence v / votes_per_correspondence.
+/// Poses in SE(3), structure of arrays. Vote v belongs to correspondence v /
+/// votes_per_correspondence.
 struct VoteSet {
   std::shared_ptr<const Model> model;
   std::uint32_t votes_per_correspondence = 0;  ///< N_r
-  std::vector<std::uint32_t> scene_feature;    ///< per correspondence: row of the scene's FeatureSet
+  std::vector<std::uint32_t> scene_feature;  ///< per correspondence: row of the scene's FeatureSet
   std::vector<float> tx, ty, tz;      ///< where the model's centre lands in the scene [m] (not the
                                       ///< translation of T_scene_model: that is t - R c)
   std::vector<float> qw, qx, qy, qz;  ///< rotation R_scene_model, unit quaternion (sign arbitrary)

@@ -8,8 +8,9 @@
 // The first three are those of point-pair features (Drost et al. 2010); the fourth tells left from
 // right, as in point feature histograms (Rusu et al. 2008). Each is counted in a histogram of
 // 6 distances x 10 angles by linear interpolation. Each distance row is brought to the sum
-// (row + 1/2) / 6, whatever the sampling there, and square-rooted, so that the Euclidean distance
-// is the Hellinger distance. 240 numbers; rotation changes nothing, reflection does.
+// (row + 1/2) / 6, as if the surface was a plane, whatever the sampling there, and square-rooted,
+// so that the Euclidean distance is the Hellinger distance. 240 numbers; rotation changes nothing,
+// reflection does.
 //
 // Only neighbours that face the same side count, n . n' >= `min_facing`: where p is seen, those
 // may be seen too, while a scan lacks the far side of the object that a model has.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/describe/feature_set.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -21,7 +22,8 @@ void require_describable(const Cloud& cloud, const FeaturePoints& points, const 
 }
 
 bool is_oriented(const Cloud& cloud, std::uint32_t point) {
-  return cloud.points.row(point).allFinite() && cloud.normals.row(point).squaredNorm() > 0.5F;
+  return cloud.points.row(point).allFinite() &&
+         std::abs(cloud.normals.row(point).squaredNorm() - 1) < 0.5F;
 }
 
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,

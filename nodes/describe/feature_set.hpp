@@ -12,7 +12,7 @@ namespace posevote {
 /// is not in the cloud, or the scale is not positive.
 void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale);
 
-/// Whether the feature point has a finite position and a usable normal.
+/// Whether the feature point has a finite position and a unit normal, at least roughly.
 bool is_oriented(const Cloud& cloud, std::uint32_t point);
 
 /// The feature points whose descriptor could be computed, row i of `descriptors` belonging to

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/describe/pcl_surface.hpp"
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include "graph/parallel.hpp"
 #include "nodes/describe/feature_set.hpp"
 
@@ -8,8 +11,8 @@ namespace posevote {
 
 PclSurface make_pcl_surface(const Cloud& cloud) {
   PclSurface surface;
-  surface.points.reset(new pcl::PointCloud<pcl::PointXYZ>);
-  surface.normals.reset(new pcl::PointCloud<pcl::Normal>);
+  surface.points = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  surface.normals = std::make_shared<pcl::PointCloud<pcl::Normal>>();
   const auto count = static_cast<std::size_t>(cloud.points.rows());
   surface.row_of.assign(count, -1);
   for (std::size_t i = 0; i < count; ++i) {

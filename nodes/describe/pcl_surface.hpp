@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The door to PCL's descriptors; only .cpp files that use PCL include this.
+// The door to PCL's descriptors. Its headers stay out of this one: they cost seconds to compile.
 #pragma once
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
+#include <memory>
 #include <vector>
 
 #include "nodes/data/features.hpp"
 #include "nodes/prepare/grid.hpp"
 
+namespace pcl {
+template <class Point>
+class PointCloud;
+struct PointXYZ;
+struct Normal;
+}  // namespace pcl
+
 namespace posevote {
 
 /// Those points of a cloud that have a finite position and a usable normal: PCL takes no others.
 struct PclSurface {
-  pcl::PointCloud<pcl::PointXYZ>::Ptr points;
-  pcl::PointCloud<pcl::Normal>::Ptr normals;
+  std::shared_ptr<pcl::PointCloud<pcl::PointXYZ>> points;
+  std::shared_ptr<pcl::PointCloud<pcl::Normal>> normals;
   std::vector<int> row_of;  ///< of each point of the cloud: its index here, or -1
 };
 

@@ -7,13 +7,19 @@
 namespace posevote {
 namespace {
 
+/// Not Eigen's own, which starts from the processor's estimate and so differs between makes.
+template <class Values>
+auto root(const Values& values) {
+  return values.unaryExpr([](float value) { return std::sqrt(value); });
+}
+
 /// The angle of a cosine, over pi: Abramowitz and Stegun 4.4.45, at most 7e-5 rad off. The cosine
 /// may have rounded beyond one.
 template <class Block>
 Block angle_over_pi(const Block& cosine) {
   const Block c = cosine.abs().min(1.0F);
   const Block acute =
-      (1.0F - c).sqrt() * (1.5707288F + c * (-0.2121144F + c * (0.0742610F - c * 0.0187293F)));
+      root(1.0F - c) * (1.5707288F + c * (-0.2121144F + c * (0.0742610F - c * 0.0187293F)));
   constexpr float kOverPi = 0.318309886F;
   return (cosine < 0.0F).select(1.0F - kOverPi * acute, kOverPi * acute);
 }
@@ -26,7 +32,7 @@ PointPairHistogram::PointPairHistogram(const Eigen::Vector3f& normal, float radi
 void PointPairHistogram::flush() {
   const auto x = offsets_.col(0), y = offsets_.col(1), z = offsets_.col(2);
   const auto nx = normals_.col(0), ny = normals_.col(1), nz = normals_.col(2);
-  const Block distance = (x * x + y * y + z * z).sqrt().max(1e-20F);
+  const Block distance = root(x * x + y * y + z * z).max(1e-20F);
   const Block cos_first = (x * normal_[0] + y * normal_[1] + z * normal_[2]) / distance;
   const Block cos_second = (x * nx + y * ny + z * nz) / distance;
   const Block cos_normals = nx * normal_[0] + ny * normal_[1] + nz * normal_[2];
@@ -34,7 +40,7 @@ void PointPairHistogram::flush() {
   const Block triple = (y * normal_[2] - z * normal_[1]) * nx +
                        (z * normal_[0] - x * normal_[2]) * ny +
                        (x * normal_[1] - y * normal_[0]) * nz;
-  const Block sine = (1.0F - cos_first * cos_first).max(1e-12F).sqrt();
+  const Block sine = root((1.0F - cos_first * cos_first).max(1e-12F));
   scatter(distance * bins_per_metre_,
           {angle_over_pi(cos_first), angle_over_pi(cos_second), angle_over_pi(cos_normals),
            angle_over_pi<Block>(triple / (distance * sine))});
@@ -76,8 +82,8 @@ void PointPairHistogram::write(float* descriptor) {
       out = Eigen::Map<const Eigen::Array<float, kAngleBins, 1>>(bins + 1);
       // An annulus of a plane holds points in proportion to its radius: so much its row may weigh.
       const float weight = (static_cast<float>(row) + 0.5F) / static_cast<float>(kDistanceBins);
-      const float sum = out.sum();
-      if (sum > 0) out = (out * (weight / sum)).sqrt();
+      // One pair more than there is keeps a row that a pair hardly touches from counting in full.
+      out = root(out * (weight / (out.sum() + 1)));
       descriptor += kAngleBins;
     }
   }

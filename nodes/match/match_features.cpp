@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Matches every feature of the scene to the nearest descriptor of all models: it votes for the one
-// object that owns that descriptor (paper, section on multi-object recognition; METHOD
-// section 1.2). Each correspondence carries the ratio of the squared distances to the nearest and
+// object that owns that descriptor (Buch, Kiforenko, Kraft, ICCV 2017, multi-object recognition).
+// Each correspondence carries the ratio of the squared distances to the nearest and
 // the second nearest descriptor, the authors' own match score: 0 is distinctive, 1 is a coin toss
 // (0/0 counts as 1).
 //
@@ -35,7 +35,8 @@ std::vector<std::uint32_t> first_rows(const ModelLibrary& library) {
 }
 
 float squared_ratio(const TwoNearest& nearest) {
-  return nearest.squared[1] > 0 ? nearest.squared[0] / nearest.squared[1] : 1.0F;
+  const float ratio = nearest.squared[0] / nearest.squared[1];
+  return ratio <= 1 ? ratio : 1;  // so that 0/0 is 1
 }
 
 PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLibrary& library,

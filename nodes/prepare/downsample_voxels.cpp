@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One oriented point per occupied voxel: the centroid and the mean normal (paper, section 4).
 //
-// Where a voxel holds both sides of a thin wall, the mean normal would be garbage: points whose
-// normal opposes that of the voxel's first point make a second output point. Output in voxel order,
-// O(n log n). Fails where points have no normals, or where the cloud is far larger than the voxels.
+// Where the normals of a voxel cancel (their mean is shorter than a half: both sides of a thin
+// wall), that mean would be garbage: the points are split along the normals' main axis, and each
+// side makes a point. Points without a usable normal are dropped and counted. Output in voxel
+// order, whatever the order of the input. O(n log n). Fails where points have no normals at all, or
+// where the cloud is far larger than the voxels.
 //
-//   downsample_scene: {node: downsample_voxels, in: [oriented_scan, scale], out: cloud, leaf_size:
-//   1} downsample_voxels: {in: [cloud, scale], out: small_cloud}
-#include <array>
+//   downsample_voxels: {in: [cloud, scale], out: small_cloud, leaf_size: 1}
+#include <Eigen/Eigenvalues>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
+#include "nodes/prepare/normals.hpp"
 #include "nodes/prepare/voxels.hpp"
 
 namespace posevote {
@@ -21,45 +25,63 @@ struct Params {
   double leaf_size = 1;
 };
 
-/// Sums over the points of one side.
-struct Side {
+constexpr double kCancelled = 0.5;
+
+/// Sums over points that make one output point.
+struct Group {
   Eigen::RowVector3d points = Eigen::RowVector3d::Zero();
   Eigen::RowVector3d normals = Eigen::RowVector3d::Zero();
-  int count = 0;
+  double count = 0;
+
+  void add(const Cloud& cloud, std::uint32_t i) {
+    points += cloud.points.row(i).cast<double>();
+    normals += cloud.normals.row(i).cast<double>();
+    ++count;
+  }
 };
 
-std::array<Side, 2> sum_sides(const Cloud& cloud, const Voxels& voxels, std::size_t voxel) {
-  std::array<Side, 2> sides;
-  const Eigen::RowVector3f first = cloud.normals.row(voxels.order[voxels.starts[voxel]]);
-  for (std::size_t i = voxels.starts[voxel]; i < voxels.starts[voxel + 1]; ++i) {
-    const std::uint32_t point = voxels.order[i];
-    Side& side = sides[cloud.normals.row(point).dot(first) < 0 ? 1 : 0];
-    side.points += cloud.points.row(point).cast<double>();
-    side.normals += cloud.normals.row(point).cast<double>();
-    ++side.count;
+/// The axis that the normals run along, one way or the other.
+Eigen::Vector3d main_axis(const Cloud& cloud, std::span<const std::uint32_t> members) {
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t i : members) {
+    const Eigen::Vector3d normal = cloud.normals.row(i).transpose().cast<double>();
+    products += normal * normal.transpose();
   }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
+  const Eigen::Vector3d axis = solver.eigenvectors().col(2);
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis(largest) < 0 ? Eigen::Vector3d(-axis) : axis;  // the solver's sign is arbitrary
+}
+
+std::vector<Group> group(const Cloud& cloud, std::span<const std::uint32_t> members) {
+  Group all;
+  for (const std::uint32_t i : members) all.add(cloud, i);
+  if (all.normals.norm() >= kCancelled * all.count) return {all};
+  const Eigen::Vector3d axis = main_axis(cloud, members);
+  std::vector<Group> sides(2);
+  for (const std::uint32_t i : members)
+    sides[cloud.normals.row(i).cast<double>().dot(axis) > 0 ? 0 : 1].add(cloud, i);
   return sides;
 }
 
 Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& params) {
   if (cloud.normals.rows() != cloud.points.rows())
     throw std::runtime_error("its points have no normals: put a normals node before this one");
+  Cloud out = keep_oriented(cloud, cloud.normals);
   const Voxels voxels =
-      group_by_voxel(cloud.points, static_cast<float>(params.leaf_size) * scale.resolution);
-  Cloud out;
-  out.viewpoint = cloud.viewpoint;
-  out.dropped = cloud.dropped;
-  out.points.resize(static_cast<Eigen::Index>(2 * voxels.size()), 3);
-  out.normals.resize(out.points.rows(), 3);
-  Eigen::Index count = 0;
+      group_by_voxel(out.points, static_cast<float>(params.leaf_size) * scale.resolution);
+  std::vector<Group> groups;
   for (std::size_t v = 0; v < voxels.size(); ++v)
-    for (const Side& side : sum_sides(cloud, voxels, v)) {
-      if (side.count == 0 || !(side.normals.norm() > 0)) continue;
-      out.points.row(count) = (side.points / side.count).cast<float>();
-      out.normals.row(count++) = side.normals.normalized().cast<float>();
-    }
-  out.points.conservativeResize(count, 3);
-  out.normals.conservativeResize(count, 3);
+    for (const Group& side : group(out, voxels[v]))
+      if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
+  out.points.resize(static_cast<Eigen::Index>(groups.size()), 3);
+  out.normals.resize(out.points.rows(), 3);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    out.points.row(row) = (groups[i].points / groups[i].count).cast<float>();
+    out.normals.row(row) = groups[i].normals.normalized().cast<float>();
+  }
   return out;
 }
 

@@ -42,9 +42,10 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
     high = high.cwiseMax(points.row(i).transpose());
   }
   origin_ = low;
-  const double extent = (high - low).cast<double>().maxCoeff();
-  // Row numbers fill 32 bits of a key: a cell may not be finer than that.
-  cell_ = std::max({cell, static_cast<float>(extent / 1e9), 1e-9F});
+  const double extent = (high.cast<double>() - low.cast<double>()).maxCoeff();
+  // Row numbers fill 32 bits of a key: a cell may not be finer than that (nor NaN, nor infinite).
+  cell_ = std::max(
+      {1e-9F, static_cast<float>(extent / 1e9), std::min(cell, static_cast<float>(extent))});
   last_row_ = std::floor(extent / cell_) + 1;
 
   std::vector<Entry> entries;
@@ -87,7 +88,7 @@ PointGrid::Rod PointGrid::find(std::int64_t y, std::int64_t z) const {
 std::optional<Neighbour> PointGrid::nearest(const Eigen::Vector3f& center, float radius) const {
   std::optional<Neighbour> best;
   // Most queries have a neighbour close by: look there first, and only else in the whole ball.
-  for (const float reach : {std::min(radius, 0.5F * cell_), radius}) {
+  for (const float reach : {std::min(radius, 0.5F * cell_), std::min(radius, 2 * cell_), radius}) {
     for_each_within(center, reach, [&best](std::uint32_t index, float squared) {
       if (!best || squared < best->squared || (squared == best->squared && index < best->index))
         best = Neighbour{index, squared};

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,26 +37,25 @@ class PointGrid {
   template <class Visit>
   void for_each_within(const Eigen::Vector3f& center, float radius, const Visit& visit) const {
     if (x_.empty() || !center.allFinite() || !(radius >= 0)) return;
-    const float squared_radius = radius * radius;
-    const std::int64_t y_end = row(center.y() + radius, origin_.y());
-    const std::int64_t z_end = row(center.z() + radius, origin_.z());
-    for (std::int64_t z = row(center.z() - radius, origin_.z()); z <= z_end; ++z)
-      for (std::int64_t y = row(center.y() - radius, origin_.y()); y <= y_end; ++y) {
+    // The windows are a trifle wider than the ball: only the distance decides who is in.
+    const double reach = 1.000001 * radius;
+    const std::int64_t y_begin = row(center.y() - reach, origin_.y());
+    const std::int64_t y_end = row(center.y() + reach, origin_.y());
+    const std::int64_t z_begin = row(center.z() - reach, origin_.z());
+    const std::int64_t z_end = row(center.z() + reach, origin_.z());
+    const auto rods =
+        static_cast<double>(y_end - y_begin + 1) * static_cast<double>(z_end - z_begin + 1);
+    if (rods > static_cast<double>(slots_.size()))  // fewer points than places to look for them
+      return visit_rod({0, static_cast<std::uint32_t>(x_.size())}, kNoEnd, center, radius, visit);
+    for (std::int64_t z = z_begin; z <= z_end; ++z)
+      for (std::int64_t y = y_begin; y <= y_end; ++y) {
         const Rod rod = find(y, z);
-        const auto begin = x_.begin() + rod.begin;
-        auto i = static_cast<std::size_t>(
-            std::lower_bound(begin, x_.begin() + rod.end, center.x() - radius) - x_.begin());
-        for (; i < rod.end && x_[i] <= center.x() + radius; ++i) {
-          const float dx = x_[i] - center.x();
-          const float dy = y_[i] - center.y();
-          const float dz = z_[i] - center.z();
-          const float squared = dx * dx + dy * dy + dz * dz;
-          if (squared <= squared_radius) visit(index_[i], squared);
-        }
+        const auto first =
+            std::lower_bound(x_.begin() + rod.begin, x_.begin() + rod.end, center.x() - reach);
+        const Rod from{static_cast<std::uint32_t>(first - x_.begin()), rod.end};
+        visit_rod(from, center.x() + reach, center, radius, visit);
       }
   }
-
-  float cell() const { return cell_; }
 
   /// The nearest point within `radius`; of several at one distance the one with the smallest index.
   std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float radius) const;
@@ -70,9 +70,25 @@ class PointGrid {
     Rod rod;
   };
 
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+
+  /// Visits the points of a stretch of a rod up to `x_end` that lie in the ball.
+  template <class Visit>
+  void visit_rod(const Rod& rod, double x_end, const Eigen::Vector3f& center, float radius,
+                 const Visit& visit) const {
+    const float squared_radius = radius * radius;
+    for (std::size_t i = rod.begin; i < rod.end && x_[i] <= x_end; ++i) {
+      const float dx = x_[i] - center.x();
+      const float dy = y_[i] - center.y();
+      const float dz = z_[i] - center.z();
+      const float squared = dx * dx + dy * dy + dz * dz;
+      if (squared <= squared_radius) visit(index_[i], squared);
+    }
+  }
+
   /// Clamped to the occupied range: nothing beyond it is worth a visit.
-  std::int64_t row(float coordinate, float origin) const {
-    const double cell = std::floor((static_cast<double>(coordinate) - origin) / cell_);
+  std::int64_t row(double coordinate, float origin) const {
+    const double cell = std::floor((coordinate - origin) / cell_);
     return static_cast<std::int64_t>(std::clamp(cell, -1.0, last_row_ + 1.0));
   }
   Rod find(std::int64_t y, std::int64_t z) const;

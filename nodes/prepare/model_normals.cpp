@@ -2,19 +2,20 @@
 // Outward normals of an object model (paper, section 4, "Preprocessing").
 //
 // A mesh: area-weighted from its faces, wound outward (winding.hpp); the file's own normals are not
-// trusted. A raw cloud: planes through the neighbours within `radius`, signs by a traversal from
-// the outermost point (orient_outward.hpp). Points without a normal (in no face, alone, on a line)
-// are dropped and counted. O(n log n). Fails where no point is left. On noisy meshes the faces'
-// normals are useless: `source: pca` takes the neighbourhoods there, too.
+// trusted. A raw cloud: planes through the neighbours (plane_normals.hpp), signs by a traversal
+// from the outermost point (orient_outward.hpp). Points without a normal (in no face, alone, on a
+// line) are dropped and counted; faces are left behind. O(n log n). Fails where no point is left.
+// On noisy meshes the faces' normals are useless: `source: pca` takes the neighbourhoods there,
+// too.
 //
-//   model_normals: {in: [model_meshes, scale], out: oriented_models, radius: 5, source: auto}
-#include <algorithm>
+//   model_normals: {in: [model_meshes, scale], out: oriented_models, radius: 3, source: auto}
 #include <string>
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/prepare/normals.hpp"
 #include "nodes/prepare/orient_outward.hpp"
+#include "nodes/prepare/plane_normals.hpp"
 #include "nodes/prepare/winding.hpp"
 
 namespace posevote {
@@ -22,18 +23,19 @@ namespace {
 
 struct Params {
   std::string source = "auto";
-  double radius = 5;
+  double radius = 3;
   int min_neighbours = 5;
 };
+
+constexpr float kSpacings = 3;  ///< fewest of the points' own distances in a radius
 
 Cloud model_normals(const Cloud& mesh, const Scale& scale, const Params& params) {
   if (params.source == "faces" || (params.source == "auto" && mesh.faces.rows() > 0))
     return keep_oriented(mesh, face_normals(mesh.points, wind_outward(mesh.points, mesh.faces)));
-  const float radius = std::max(static_cast<float>(params.radius) * scale.resolution,
-                                3 * point_spacing(mesh.points));
-  const PointGrid grid(mesh.points, radius);
-  PointMatrix normals = plane_normals(mesh.points, grid, radius, params.min_neighbours);
-  orient_outward(mesh.points, grid, radius, normals);
+  const float smallest = static_cast<float>(params.radius) * scale.resolution;
+  const float radius = suitable_radius(mesh.points, smallest, kSpacings);
+  PointMatrix normals = plane_normals(mesh.points, radius, params.min_neighbours);
+  orient_outward(mesh.points, radius, normals);
   return keep_oriented(mesh, normals);
 }
 
@@ -46,9 +48,11 @@ const auto registered =
             "source", &Params::source, "",
             "Where normals come from; auto: faces where there are any, else neighbourhoods (pca).",
             graph::one_of({"auto", "faces", "pca"}))
-        .param("radius", &Params::radius, "x resolution",
-               "Neighbourhood of a point (pca); at least three times the points' spacing.",
-               graph::greater_than(0))
+        .param(
+            "radius", &Params::radius, "x resolution",
+            "Smallest neighbourhood of a point (pca). It spans at least three of the points' own "
+            "spacings, and more where the points are noisy.",
+            graph::greater_than(0))
         .param("min_neighbours", &Params::min_neighbours, "",
                "Fewer points in a neighbourhood give no normal (pca).", graph::in_range(3, 1000));
 

@@ -6,7 +6,10 @@
 // gives more than `max_points`, the spacing grows until they fit. O(n log n).
 //
 //   pick_feature_points: {in: [cloud, scale], out: points, spacing: 2.5, max_points: 10000}
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <tuple>
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
@@ -21,21 +24,16 @@ struct Params {
 };
 
 std::uint32_t most_central(const PointMatrix& points, const Voxels& voxels, std::size_t voxel) {
-  Eigen::RowVector3d centroid = Eigen::RowVector3d::Zero();
-  const std::size_t begin = voxels.starts[voxel];
-  const std::size_t end = voxels.starts[voxel + 1];
-  for (std::size_t i = begin; i < end; ++i) centroid += points.row(voxels.order[i]).cast<double>();
-  centroid /= static_cast<double>(end - begin);
-  std::uint32_t best = voxels.order[begin];
-  double best_distance = -1;
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t point = voxels.order[i];
-    const double distance = (points.row(point).cast<double>() - centroid).squaredNorm();
-    if (best_distance >= 0 && distance >= best_distance) continue;
-    best_distance = distance;
-    best = point;
-  }
-  return best;
+  const Eigen::RowVector3d centroid = voxels.centroid(points, voxel);
+  const std::span<const std::uint32_t> members = voxels[voxel];
+  // Of two equally central points the one with smaller coordinates, wherever it stands in the
+  // input.
+  const auto rank = [&](std::uint32_t i) {
+    const double distance = (points.row(i).cast<double>() - centroid).squaredNorm();
+    return std::tuple(distance, points(i, 0), points(i, 1), points(i, 2));
+  };
+  return *std::min_element(members.begin(), members.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
 FeaturePoints pick_feature_points(const Cloud& cloud, const Scale& scale, const Params& params) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
@@ -15,11 +16,17 @@ struct Voxels {
   std::vector<std::size_t> starts;
 
   std::size_t size() const { return starts.size() - 1; }
+  /// The indices of the points in a voxel.
+  std::span<const std::uint32_t> operator[](std::size_t voxel) const {
+    return std::span(order).subspan(starts[voxel], starts[voxel + 1] - starts[voxel]);
+  }
+  /// Mean of the points of a voxel.
+  Eigen::RowVector3d centroid(const PointMatrix& points, std::size_t voxel) const;
 };
 
-/// Sorts finite points into cubes of edge `leaf` [m] whose corner is the points' own minimum: a
+/// Sorts the finite points into cubes of edge `leaf` [m] whose corner is the points' own minimum: a
 /// cloud that is moved as a whole is grouped alike. Throws std::runtime_error where the cloud spans
-/// more than two million cubes along an axis.
+/// more than four billion cubes along an axis.
 Voxels group_by_voxel(const PointMatrix& points, float leaf);
 
 }  // namespace posevote

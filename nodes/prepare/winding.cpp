@@ -3,9 +3,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "nodes/prepare/normals.hpp"
 
 namespace posevote {
 namespace {
@@ -23,12 +29,52 @@ struct Link {
   bool agree;
 };
 
-FaceMatrix without_degenerate(const FaceMatrix& faces) {
+/// Connected faces, and what turning them takes.
+struct Component {
+  std::vector<std::uint32_t> faces;
+  Eigen::Array3d low, high;  ///< bounding box
+  double area = 0;           ///< twice
+  double volume = 0;         ///< six times, signed
+};
+
+/// For each point the first one in the same place.
+std::vector<std::uint32_t> weld(const PointMatrix& points) {
+  const auto place = [&points](std::uint32_t i) {
+    std::array<std::uint32_t, 3> bits;
+    for (int axis = 0; axis < 3; ++axis)
+      bits[static_cast<std::size_t>(axis)] = std::bit_cast<std::uint32_t>(points(i, axis) + 0.0F);
+    return bits;  // + 0: minus zero is zero; and bits, unlike floats with NaN among them, sort
+  };
+  std::vector<std::uint32_t> sorted(static_cast<std::size_t>(points.rows()));
+  std::iota(sorted.begin(), sorted.end(), 0U);
+  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(place(a), a) < std::pair(place(b), b);
+  });
+  std::vector<std::uint32_t> first(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    first[sorted[i]] =
+        i > 0 && place(sorted[i]) == place(sorted[i - 1]) ? first[sorted[i - 1]] : sorted[i];
+  return first;
+}
+
+/// Without faces that have two corners in one place, and without copies. Their corners are welded
+/// in `welded`.
+FaceMatrix proper_faces(const PointMatrix& points, const FaceMatrix& faces, FaceMatrix& welded) {
+  const std::vector<std::uint32_t> first = weld(points);
+  std::vector<std::pair<std::array<std::uint32_t, 3>, Eigen::Index>> keyed;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    std::array<std::uint32_t, 3> key{first[faces(f, 0)], first[faces(f, 1)], first[faces(f, 2)]};
+    std::sort(key.begin(), key.end());
+    if (key[0] != key[1] && key[1] != key[2]) keyed.emplace_back(key, f);
+  }
+  std::sort(keyed.begin(), keyed.end());
   std::vector<Eigen::Index> kept;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f)
-    if (faces(f, 0) != faces(f, 1) && faces(f, 1) != faces(f, 2) && faces(f, 2) != faces(f, 0))
-      kept.push_back(f);
-  return faces(kept, Eigen::all);
+  for (std::size_t i = 0; i < keyed.size(); ++i)
+    if (i == 0 || keyed[i].first != keyed[i - 1].first) kept.push_back(keyed[i].second);
+  std::sort(kept.begin(), kept.end());
+  FaceMatrix proper = faces(kept, Eigen::all);
+  welded = proper.unaryExpr([&first](std::uint32_t corner) { return first[corner]; });
+  return proper;
 }
 
 std::vector<Side> sorted_sides(const FaceMatrix& faces) {
@@ -65,72 +111,96 @@ std::vector<std::vector<Link>> link_faces(const FaceMatrix& faces) {
   return links;
 }
 
-/// Connected faces and which of them must be turned to agree with the first.
-struct Component {
-  std::vector<std::uint32_t> faces;
-  std::vector<bool> turned;
-};
+void turn(FaceMatrix& faces, std::uint32_t face) { std::swap(faces(face, 1), faces(face, 2)); }
 
-std::vector<Component> walk(const FaceMatrix& faces, bool& agreed) {
-  const std::vector<std::vector<Link>> links = link_faces(faces);
-  std::vector<char> seen(links.size(), 0);
-  std::vector<Component> components;
-  for (std::uint32_t first = 0; first < links.size(); ++first) {
-    if (seen[first]) continue;
-    seen[first] = 1;
-    Component component{{first}, {false}};
-    for (std::size_t i = 0; i < component.faces.size(); ++i)
-      for (const Link& link : links[component.faces[i]]) {
-        if (seen[link.face]) continue;
-        seen[link.face] = 1;
-        component.faces.push_back(link.face);
-        component.turned.push_back(link.agree ? component.turned[i] : !component.turned[i]);
-        agreed = agreed && link.agree;
-      }
-    components.push_back(std::move(component));
-  }
-  return components;
+Eigen::Vector3d corner_of(const PointMatrix& points, const FaceMatrix& faces, std::uint32_t face,
+                          int corner) {
+  return points.row(faces(face, corner)).transpose().cast<double>();
 }
 
-/// Six times the signed volume between some faces and their centroid.
-double signed_volume(const PointMatrix& points, const FaceMatrix& faces,
-                     const std::vector<std::uint32_t>& some) {
-  Eigen::RowVector3d centroid = Eigen::RowVector3d::Zero();
-  for (const std::uint32_t f : some)
-    for (int corner = 0; corner < 3; ++corner)
-      centroid += points.row(faces(f, corner)).cast<double>();
-  centroid /= 3.0 * static_cast<double>(some.size());
-  double volume = 0;
-  for (const std::uint32_t f : some) {
-    const Eigen::RowVector3d a = points.row(faces(f, 0)).cast<double>() - centroid;
-    const Eigen::RowVector3d b = points.row(faces(f, 1)).cast<double>() - centroid;
-    const Eigen::RowVector3d c = points.row(faces(f, 2)).cast<double>() - centroid;
-    volume += a.dot(b.cross(c));
+double twice_area(const PointMatrix& points, const FaceMatrix& faces, std::uint32_t face) {
+  const Eigen::Vector3d a = corner_of(points, faces, face, 0);
+  return (corner_of(points, faces, face, 1) - a)
+      .cross(corner_of(points, faces, face, 2) - a)
+      .norm();
+}
+
+/// Makes the faces around `first` agree with each other and with most of their own area.
+std::vector<std::uint32_t> agree_around(std::uint32_t first, const PointMatrix& points,
+                                        const std::vector<std::vector<Link>>& links,
+                                        std::vector<char>& seen, FaceMatrix& faces) {
+  std::vector<std::uint32_t> members{first};
+  std::vector<bool> turned{false};
+  double balance = 0;  // area as in the file less the area that was turned
+  seen[first] = 1;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const double area = twice_area(points, faces, members[i]);
+    balance += turned[i] ? -area : area;
+    for (const Link& link : links[members[i]]) {
+      if (seen[link.face]) continue;
+      seen[link.face] = 1;
+      members.push_back(link.face);
+      turned.push_back(turned[i] == link.agree);
+    }
   }
-  return volume;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (turned[i] == (balance >= 0)) turn(faces, members[i]);
+  return members;
+}
+
+Component measure(const PointMatrix& points, const FaceMatrix& faces,
+                  std::vector<std::uint32_t> members) {
+  Component component;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  component.low = component.high = corner_of(points, faces, members.front(), 0).array();
+  for (const std::uint32_t f : members)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Eigen::Vector3d point = corner_of(points, faces, f, corner);
+      centroid += point / (3.0 * static_cast<double>(members.size()));
+      component.low = component.low.min(point.array());
+      component.high = component.high.max(point.array());
+    }
+  for (const std::uint32_t f : members) {
+    component.area += twice_area(points, faces, f);
+    const Eigen::Vector3d a = corner_of(points, faces, f, 0) - centroid;
+    const Eigen::Vector3d b = corner_of(points, faces, f, 1) - centroid;
+    const Eigen::Vector3d c = corner_of(points, faces, f, 2) - centroid;
+    component.volume += a.dot(b.cross(c));
+  }
+  component.faces = std::move(members);
+  return component;
+}
+
+double size_of(const Component& component) {
+  return (component.high - component.low).matrix().squaredNorm();
+}
+
+bool is_turned(const Component& component, const Component& largest) {
+  const bool inside = &component != &largest && (component.low >= largest.low).all() &&
+                      (component.high <= largest.high).all();
+  const bool flat = std::abs(component.volume) < 1e-4 * std::pow(component.area, 1.5);
+  return (inside || flat ? largest : component).volume < 0;
 }
 
 }  // namespace
 
 FaceMatrix wind_outward(const PointMatrix& points, const FaceMatrix& faces) {
-  FaceMatrix wound = without_degenerate(faces);
+  check_faces(points, faces);
+  FaceMatrix welded;
+  FaceMatrix wound = proper_faces(points, faces, welded);
   if (wound.rows() == 0) return wound;
-  bool agreed = true;
-  std::vector<Component> components = walk(wound, agreed);
+  const std::vector<std::vector<Link>> links = link_faces(welded);
+  std::vector<char> seen(links.size(), 0);
+  std::vector<Component> components;
+  for (std::uint32_t first = 0; first < links.size(); ++first)
+    if (!seen[first])
+      components.push_back(measure(points, wound, agree_around(first, points, links, seen, wound)));
+  const Component& largest = *std::max_element(
+      components.begin(), components.end(),
+      [](const Component& a, const Component& b) { return size_of(a) < size_of(b); });
   for (const Component& component : components)
-    for (std::size_t i = 0; i < component.faces.size(); ++i)
-      if (component.turned[i])
-        std::swap(wound(component.faces[i], 1), wound(component.faces[i], 2));
-  if (agreed) {  // one piece, as far as turning goes
-    for (std::size_t i = 1; i < components.size(); ++i)
-      components[0].faces.insert(components[0].faces.end(), components[i].faces.begin(),
-                                 components[i].faces.end());
-    components.resize(1);
-  }
-  for (const Component& component : components) {
-    if (signed_volume(points, wound, component.faces) >= 0) continue;
-    for (const std::uint32_t f : component.faces) std::swap(wound(f, 1), wound(f, 2));
-  }
+    if (is_turned(component, largest))
+      for (const std::uint32_t f : component.faces) turn(wound, f);
   return wound;
 }
 

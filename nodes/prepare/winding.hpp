@@ -9,11 +9,13 @@ namespace posevote {
 /// Faces wound so that their normals point outward.
 ///
 /// Neighbouring faces are made to agree by a breadth-first walk over the edges that exactly two
-/// faces share. If they agreed already, the mesh is turned as a whole by its signed volume: then
-/// the inner wall of a hollow object keeps its orientation relative to the outer one. Else each
-/// connected component is turned by its own signed volume. Volumes are taken about the
-/// (component's) centroid, so that an open shell, too, has a sensible one. Degenerate faces (two
-/// equal corners) are left out.
+/// faces share; points in one place count as one, so a texture's seams do not divide a surface.
+/// Then each connected component is turned by its own signed volume, taken about its own centroid
+/// so that an open shell, too, has a sensible one. A component inside the bounding box of the
+/// largest one may be the wall of a cavity, for which the sign is the other way around: it keeps
+/// the orientation relative to the largest that most of its area has in the file. So does a flat
+/// one, which has no volume. Degenerate faces and copies of a face are left out. Throws
+/// std::runtime_error if a face has a corner that is no point. O(n log n).
 FaceMatrix wind_outward(const PointMatrix& points, const FaceMatrix& faces);
 
 }  // namespace posevote

@@ -3,46 +3,38 @@
 
 #include <algorithm>
 
+#include "graph/parallel.hpp"
 #include "nodes/segment/find_modes.hpp"
 #include "nodes/segment/icp.hpp"
 
 namespace posevote {
 namespace {
 
-constexpr double kBeyondDoubt = 0.8;        // score at which no further mode is looked at
-constexpr std::size_t kFinalists = 5;       // refined by ICP
-constexpr Eigen::Index kGlance = 2000;      // model points that judge a mode before ICP
-constexpr double kKeptSupport = 0.95;       // ICP may lose a few chance partners at the silhouette
+constexpr double kBeyondDoubt = 0.6;    // score at which no other mode is looked at
+constexpr std::size_t kFinalists = 5;   // refined by ICP
+constexpr Eigen::Index kGlance = 1000;  // model points that judge a mode before ICP
+constexpr double kKeptSupport = 0.95;   // ICP may lose a few chance partners at the silhouette
 
-Candidate judge_mode(const LiveVotes& object, const ScanState& scan, std::uint32_t vote,
-                     float tolerance) {
+/// Works on the first candidate and, unless it then fits beyond doubt, on all others; the best
+/// first.
+template <class Work>
+void work_on(std::vector<Candidate>& candidates, const Work& work) {
+  if (candidates.empty()) return;
+  work(candidates.front());
+  if (candidates.front().score >= kBeyondDoubt) return candidates.resize(1);
+  graph::parallel_for(candidates.size() - 1, 1, [&](std::size_t i) { work(candidates[i + 1]); });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+void judge_at_a_glance(Candidate& candidate, const LiveVotes& object, const ScanState& scan,
+                       float tolerance) {
   const Model& model = *object.votes->model;
-  Candidate candidate;
-  candidate.mode =
-      refine_mode(*object.votes, *object.raw, object.alive, vote_pose(*object.votes, vote));
+  candidate.mode = refine_mode(*object.votes, *object.raw, object.alive, candidate.mode);
   candidate.T_scene_model = T_scene_model_of(candidate.mode, model.center);
   candidate.fit = measure_fit(model.cloud, scan.surface, scan.view, candidate.T_scene_model,
                               tolerance, kGlance);
   candidate.score = fit_score(candidate.fit);
-  return candidate;
-}
-
-/// The densest modes as they stand, best first.
-std::vector<Candidate> judge_modes(const LiveVotes& object, const ScanState& scan,
-                                   std::vector<Eigen::Vector3f> taken,
-                                   const CandidateParams& params) {
-  const std::vector<std::uint32_t> votes = best_votes(*object.votes, object.density);
-  std::vector<Candidate> candidates;
-  for (int i = 0; i < params.candidates; ++i) {
-    const auto vote = next_mode(*object.votes, votes, taken, params.nms_radius);
-    if (!vote || object.density[*vote] < params.min_density) break;
-    candidates.push_back(judge_mode(object, scan, *vote, params.tolerance));
-    taken.push_back(vote_center(*object.votes, *vote));
-    if (candidates.back().score >= kBeyondDoubt) break;
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  return candidates;
 }
 
 /// ICP, kept where it keeps the support that the mode had.
@@ -82,16 +74,20 @@ std::optional<Candidate> choose_candidate(const LiveVotes& object, const ScanSta
                                           const std::vector<Eigen::Vector3f>& taken,
                                           const CandidateParams& params) {
   const Model& model = *object.votes->model;
-  std::vector<Candidate> candidates = judge_modes(object, scan, taken, params);
+  std::vector<Candidate> candidates;
+  for (const PoseMode& mode :
+       separate_modes(*object.votes, best_votes(*object.votes, object.density, params.min_density),
+                      taken, params.nms_radius, static_cast<std::size_t>(params.candidates)))
+    candidates.emplace_back().mode = mode;
+  work_on(candidates, [&](Candidate& candidate) {
+    judge_at_a_glance(candidate, object, scan, params.tolerance);
+  });
   candidates.resize(std::min(candidates.size(), kFinalists));
-  std::optional<Candidate> best;
-  for (Candidate& candidate : candidates) {
-    refine_candidate(candidate, model.cloud, scan, params);
-    if (!keeps_clear(candidate, model.center, taken, params.nms_radius)) continue;
-    if (!best || candidate.score > best->score) best = candidate;
-    if (best->score >= kBeyondDoubt) break;
-  }
-  return best;
+  work_on(candidates,
+          [&](Candidate& candidate) { refine_candidate(candidate, model.cloud, scan, params); });
+  for (const Candidate& candidate : candidates)
+    if (keeps_clear(candidate, model.center, taken, params.nms_radius)) return candidate;
+  return std::nullopt;
 }
 
 }  // namespace posevote

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The next instance of an object: of its densest modes, the one that agrees best with the scan.
 //
-// The paper takes the densest. On laser scans that is the right one by a wide margin; on RGB-D scans,
-// where tables and walls vote too, right modes are often not the densest, but what the sensor measured
-// tells them apart. So the densest modes are judged as they stand, in descending density, up to the
-// first that fits beyond doubt; the best few are refined by ICP, and the best of those is chosen.
+// The paper takes the densest. On laser scans that is the right one by a wide margin; on RGB-D
+// scans, where tables and walls vote too, right modes are often not the densest, but what the
+// sensor measured tells them apart. So unless the densest mode fits beyond doubt as it stands, as
+// many modes as asked for are judged at a glance; the best few are refined by ICP, and the best of
+// those is chosen.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,13 +20,13 @@
 namespace posevote {
 
 struct CandidateParams {
-  int candidates = 30;           ///< modes that are judged, at most; 1: the densest, as in the paper
-  double min_density = 0;        ///< modes of lower density are not judged
-  float nms_radius = 0;          ///< between the centres of modes [m]
-  bool refine = true;            ///< by ICP
-  int icp_iterations = 40;       ///< at most
-  float icp_distance = 0;        ///< search radius of the first iteration [m]
-  float tolerance = 0;           ///< of support [m]
+  int candidates = 100;     ///< modes that are judged, at most; 1: the densest, as in the paper
+  double min_density = 0;   ///< modes of lower density are not judged
+  float nms_radius = 0;     ///< between the centres of modes [m]
+  bool refine = true;       ///< by ICP
+  int icp_iterations = 40;  ///< at most
+  float icp_distance = 0;   ///< search radius of the first iteration [m]
+  float tolerance = 0;      ///< of support [m]
 };
 
 /// A pose of the object, and how it fits.
@@ -36,7 +37,8 @@ struct Candidate {
   double score = 0;
 };
 
-/// The candidate of highest score whose centre keeps clear of those in `taken`; of equals the denser.
+/// The candidate of highest score whose centre keeps clear of those in `taken`; of equals the
+/// denser.
 std::optional<Candidate> choose_candidate(const LiveVotes& object, const ScanState& scan,
                                           const std::vector<Eigen::Vector3f>& taken,
                                           const CandidateParams& params);

@@ -4,12 +4,34 @@
 #include <algorithm>
 
 namespace posevote {
+namespace {
+
+constexpr float kOtherRotation = 1.0471976F;  // 60 deg
+constexpr int kRotationsPerPlace = 3;
+
+bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& denser, float radius) {
+  int here = 0;
+  for (const PoseMode& other : denser) {
+    if ((mode.center - other.center).norm() > radius) continue;
+    if (mode.rotation.angularDistance(other.rotation) <= kOtherRotation) return true;
+    if (++here == kRotationsPerPlace) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
   return {votes.tx[vote], votes.ty[vote], votes.tz[vote]};
 }
 
-std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density) {
+PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote) {
+  return {vote_center(votes, vote),
+          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote])};
+}
+
+std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,
+                                      double min_density) {
   const std::size_t per_correspondence = votes.votes_per_correspondence;
   std::vector<std::uint32_t> best;
   if (per_correspondence == 0) return best;
@@ -17,7 +39,8 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
     const auto begin = density.begin() + static_cast<std::ptrdiff_t>(first);
     const auto highest =
         std::max_element(begin, begin + static_cast<std::ptrdiff_t>(per_correspondence));
-    if (*highest > 0) best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
+    if (*highest > 0 && *highest >= min_density)
+      best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
   }
   std::stable_sort(best.begin(), best.end(), [&density](std::uint32_t a, std::uint32_t b) {
     return density[a] > density[b];
@@ -25,18 +48,19 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
   return best;
 }
 
-std::optional<std::uint32_t> next_mode(const VoteSet& votes,
-                                       const std::vector<std::uint32_t>& candidates,
-                                       const std::vector<Eigen::Vector3f>& taken, float radius) {
-  for (const std::uint32_t candidate : candidates) {
-    const Eigen::Vector3f center = vote_center(votes, candidate);
-    const bool suppressed =
-        std::any_of(taken.begin(), taken.end(), [&center, radius](const Eigen::Vector3f& mode) {
-          return (center - mode).norm() <= radius;
-        });
-    if (!suppressed) return candidate;
+std::vector<PoseMode> separate_modes(const VoteSet& votes, const std::vector<std::uint32_t>& best,
+                                     const std::vector<Eigen::Vector3f>& taken, float radius,
+                                     std::size_t count) {
+  std::vector<PoseMode> modes;
+  for (const std::uint32_t vote : best) {
+    if (modes.size() == count) break;
+    const PoseMode mode = vote_pose(votes, vote);
+    const bool clear = std::all_of(taken.begin(), taken.end(), [&](const Eigen::Vector3f& other) {
+      return (mode.center - other).norm() > radius;
+    });
+    if (clear && !is_suppressed(mode, modes, radius)) modes.push_back(mode);
   }
-  return std::nullopt;
+  return modes;
 }
 
 double runner_up_density(const VoteSet& votes, const std::vector<double>& density,

@@ -15,13 +15,14 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr Eigen::Index kMaxSamples = 3000;  // model points; about half of them face the sensor
+constexpr Eigen::Index kMaxSamples = 2000;  // model points; about half of them face the sensor
 constexpr std::size_t kFewestPairs = 10;
-constexpr double kShrink = 0.85;      // of the search radius per iteration
-constexpr double kUnobserved = 1e-4;  // eigenvalue, as a share of the pairs' weight: not moved at all
-constexpr double kDamping = 0.01;     // likewise: weakly held directions take several small steps
-constexpr double kMaxTurn = 0.2;      // [rad] per iteration
-constexpr double kStill = 2e-3;       // of the final search radius: a shorter step ends the search
+constexpr double kShrink = 0.85;  // of the search radius per iteration
+constexpr double kUnobserved =
+    1e-4;                          // eigenvalue, as a share of the pairs' weight: not moved at all
+constexpr double kDamping = 0.01;  // likewise: weakly held directions take several small steps
+constexpr double kMaxTurn = 0.2;   // [rad] per iteration
+constexpr double kStill = 2e-3;    // of the final search radius: a shorter step ends the search
 
 /// A posed model point on its scan point's tangent plane.
 struct Pair {
@@ -75,8 +76,7 @@ Pivot find_pivot(const std::vector<Pair>& pairs) {
   }
   pivot.center /= weight;
   double squared = 0;
-  for (const Pair& pair : pairs)
-    squared += pair.weight * (pair.point - pivot.center).squaredNorm();
+  for (const Pair& pair : pairs) squared += pair.weight * (pair.point - pivot.center).squaredNorm();
   pivot.lever = std::sqrt(squared / weight);
   return pivot;
 }
@@ -98,7 +98,8 @@ Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot) {
   for (Eigen::Index k = 0; k < 6; ++k) {
     const double held = solver.eigenvalues()[k];
     const Vector6d direction = solver.eigenvectors().col(k);
-    if (held > kUnobserved) step -= direction.dot(gradient) / weight / (held + kDamping) * direction;
+    if (held > kUnobserved)
+      step -= direction.dot(gradient) / weight / (held + kDamping) * direction;
   }
   return step;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Iterative closest points, point to plane (Chen, Medioni 1992), for a model that is mostly hidden: the
-// model points that face the sensor look for scan points, within a distance that shrinks from
-// iteration to iteration. Weights fall smoothly to zero at that distance (Tukey's biweight), so hidden
-// parts and clutter drop out without a jump. Each step solves the 6 x 6 normal equations in double by
-// their eigenvectors, damped as Levenberg does: on a plane or a sphere the directions that nothing
-// holds stay where they are instead of following noise. Cost: iterations x sampled points x one
-// nearest-neighbour search.
+// Iterative closest points, point to plane (Chen, Medioni 1992), for a model that is mostly hidden:
+// the model points that face the sensor look for scan points, within a distance that shrinks from
+// iteration to iteration. Weights fall smoothly to zero at that distance (Tukey's biweight), so
+// hidden parts and clutter drop out without a jump. Each step solves the 6 x 6 normal equations in
+// double by their eigenvectors, damped as Levenberg does: on a plane or a sphere the directions
+// that nothing holds stay where they are instead of following noise. Cost: iterations x sampled
+// points x one nearest-neighbour search.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/segment/live_votes.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -17,8 +16,8 @@ void check_object(const VoteSet& votes, const VoteDensity& density, std::size_t 
     throw std::runtime_error("votes of " + votes.model->name + ": " + what);
   };
   if (count == 0 && !votes.scene_feature.empty()) fail("no vote per correspondence");
-  for (const auto* column : {&votes.tx, &votes.ty, &votes.tz, &votes.qw, &votes.qx, &votes.qy,
-                             &votes.qz})
+  for (const auto* column :
+       {&votes.tx, &votes.ty, &votes.tz, &votes.qw, &votes.qx, &votes.qy, &votes.qz})
     if (column->size() != count)
       fail(std::to_string(column->size()) + " poses, expected " + std::to_string(count));
   if (density.density.size() != count)
@@ -49,16 +48,13 @@ void remove_explained(LiveVotes& object, const std::vector<char>& explained) {
   if (!removed.empty()) object.raw->index->subtract(removed, object.alive, object.density);
 }
 
-void check_inputs(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
-                  const FeatureSet& scene_features, const Scale& scale) {
-  if (!(scale.resolution > 0) || !std::isfinite(scale.resolution))
-    throw std::runtime_error("resolution is " + std::to_string(scale.resolution) +
-                             " m, expected more than 0");
+void check_votes(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
+                 std::size_t scene_features) {
   if (votes.size() != densities.size())
     throw std::runtime_error(std::to_string(votes.size()) + " vote sets but " +
                              std::to_string(densities.size()) + " sets of densities");
   for (std::size_t i = 0; i < votes.size(); ++i)
-    check_object(votes[i], densities[i], static_cast<std::size_t>(scene_features.points.rows()));
+    check_object(votes[i], densities[i], scene_features);
 }
 
 }  // namespace posevote

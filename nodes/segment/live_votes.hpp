@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The votes of one object that no detection has explained away yet, and their densities. What goes is
-// subtracted from the densities of what stays (PoseIndex::subtract), which equals voting anew without
-// it.
+// The votes of one object that no detection has explained away yet, and their densities. What goes
+// is subtracted from the densities of what stays (PoseIndex::subtract), which equals voting anew
+// without it.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ LiveVotes all_votes(const VoteSet& votes, const VoteDensity& density);
 void remove_explained(LiveVotes& object, const std::vector<char>& explained);
 
 /// Throws std::runtime_error where votes, densities and features do not belong together.
-void check_inputs(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
-                  const FeatureSet& scene_features, const Scale& scale);
+void check_votes(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
+                 std::size_t scene_features);
 
 }  // namespace posevote

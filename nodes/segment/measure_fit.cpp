@@ -12,6 +12,8 @@
 namespace posevote {
 namespace {
 
+constexpr double kConvincing = 0.1;  // inlier fraction x relief at which evidence is 63 %
+
 enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
 
 struct Judged {
@@ -25,7 +27,7 @@ Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& v
   if (!scan.faces_sensor(p)) return {};
   if (const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, tolerance))
     return {Verdict::kSupported,
-            static_cast<double>((p.point - partner->point).dot(partner->normal)), p.normal};
+            static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
   const float measured = view.measured_range(p.point);
   if (measured == 0) return {Verdict::kUnseen};
   const float before = measured - (p.point - viewpoint).norm();
@@ -77,13 +79,26 @@ Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& vi
   return count(points);
 }
 
+// score = agreement x evidence.
+//
+// Agreement is the share of supporters among the points that take a side. Hidden points take none,
+// so a true pose of which a tenth is visible still agrees. A point that the sensor saw through
+// speaks fully against the pose; one that met another surface or no measurement counts half,
+// because noise, clutter in contact and drop-outs do that to true poses too.
+//
+// Agreement alone would let a body sunk into a table score high: its cap is supported, the rest is
+// hidden. Evidence is therefore what the support could only show by fitting: the supported share of
+// what faces the sensor, times the relief of the scan there. Measured on bin-picking scans, false
+// poses on flat ground reach inliers 0.16 x relief 0.015, true poses 0.35..0.7 x 0.3..0.5; on a
+// laser scan 0.4..0.75 x 0.3..0.5 where false ones stay below 0.15 x 0.3. Both factors are ratios,
+// so that the score does not depend on the object's size or the sampling.
 double fit_score(const Fit& fit) {
   if (fit.supported == 0) return 0;
   const auto supported = static_cast<double>(fit.supported);
   const double against = static_cast<double>(fit.contradicted) +
                          0.5 * static_cast<double>(fit.mismatched + fit.unseen);
   const double agreement = supported / (supported + against);
-  const double evidence = 1 - std::exp(-fit.inlier_fraction / 0.1);
+  const double evidence = 1 - std::exp(-fit.inlier_fraction * fit.relief / kConvincing);
   return agreement * evidence;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well a posed model agrees with what the sensor measured. Every model point that turns its outside
-// to the sensor gets one verdict:
+// How well a posed model agrees with what the sensor measured. Every model point that turns its
+// outside to the sensor gets one verdict:
 //
 //   supported     a scan point lies within the tolerance and its normal agrees
 //   contradicted  the sensor saw through the point to a surface clearly behind it
@@ -29,13 +29,13 @@ struct Fit {
   double relief = 0;           ///< of the supported: 0 if all normals are parallel, 2/3 at most
 };
 
-/// `tolerance`: of support; a surface is clearly behind or before at twice that [m]. `samples`: about as
-/// many points of the model are judged, evenly strewn; 0 judges all.
+/// `tolerance`: of support; a surface is clearly behind or before at twice that [m]. `samples`:
+/// about as many points of the model are judged, evenly strewn; 0 judges all.
 Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& view,
                 const Eigen::Isometry3d& T_scene_model, float tolerance, Eigen::Index samples = 0);
 
-/// The detection's score in [0, 1]: how much of what should be visible is there, times how much there
-/// is to go by; see the .cpp for the reasons.
+/// The detection's score in [0, 1]: how much of what should be visible is there, times how much
+/// there is to go by; the .cpp gives the reasons.
 double fit_score(const Fit& fit);
 
 }  // namespace posevote

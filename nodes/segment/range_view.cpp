@@ -8,11 +8,11 @@
 namespace posevote {
 namespace {
 
-constexpr float kTrusted = 0.9F;      // share of points that must look like a single view
-constexpr float kMinCosine = 0.26F;   // 75 deg off the axis: a plane image ends here
-constexpr float kFootprint = 0.75F;   // half-width a point covers, x spacing: neighbours overlap
-constexpr int kMaxCells = 2000;       // per side
-constexpr int kMaxHalfCells = 8;      // a point right before the sensor does not fill the image
+constexpr float kTrusted = 0.9F;     // share of points that must look like a single view
+constexpr float kMinCosine = 0.26F;  // 75 deg off the axis: a plane image ends here
+constexpr float kFootprint = 0.75F;  // half-width a point covers, x spacing: neighbours overlap
+constexpr int kMaxCells = 2000;      // per side
+constexpr int kMaxHalfCells = 8;     // a point right before the sensor does not fill the image
 
 /// Directions with range in z: (x / z, y / z, range); range 0 for what is not in the image.
 Eigen::Vector3f project(const Eigen::Vector3f& in_image_frame) {

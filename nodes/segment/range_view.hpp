@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sensor saw in every direction: a coarse range image of the scan from its viewpoint. A pose
-// whose points would stand in front of the measured surface contradicts the scan, because the sensor
-// saw through them; points behind it are merely hidden.
+// What the sensor saw in every direction: a coarse range image of the scan from its viewpoint. A
+// pose whose points would stand in front of the measured surface contradicts the scan, because the
+// sensor saw through them; points behind it are merely hidden.
 //
 // The image plane is perpendicular to the mean viewing direction. A cell is as wide as the scan's
-// point spacing at its median range, and every point covers what its own spacing covers, so surfaces
-// have no holes; where points compete the nearest stays, which makes "in front" cautious.
+// point spacing at its median range, and every point covers what its own spacing covers, so
+// surfaces have no holes; where points compete the nearest stays, which makes "in front" cautious.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,9 @@ class RangeView {
   /// `resolution`: point spacing of the scan [m].
   RangeView(const Cloud& scan, float resolution);
 
-  /// Whether the cloud is the view from its viewpoint: its normals point there and it spans well under
-  /// a half space. A merged or synthetic cloud, or a viewpoint inside it, is not; then there is no
-  /// telling what is in front.
+  /// Whether the cloud is the view from its viewpoint: its normals point there and it spans well
+  /// under a half space. A merged or synthetic cloud, or a viewpoint inside it, is not; then there
+  /// is no telling what is in front.
   bool usable() const { return width_ > 0; }
 
   /// Distance from the viewpoint to the nearest surface seen in the direction of `point` [m], or 0

@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "nodes/segment/find_modes.hpp"
 #include "nodes/vote/pose_index.hpp"
 
 namespace posevote {
@@ -47,11 +46,6 @@ bool stands_still(const PoseMode& before, const PoseMode& after, const Bandwidth
 }
 
 }  // namespace
-
-PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote) {
-  return {vote_center(votes, vote),
-          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote])};
-}
 
 PoseMode refine_mode(const VoteSet& votes, const VoteDensity& density,
                      const std::vector<char>& alive, const PoseMode& start) {

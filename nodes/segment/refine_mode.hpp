@@ -2,26 +2,18 @@
 // Mean shift of a mode on SE(3). The argmax is one of the votes, so it stands on the votes' raster
 // (6 deg); the weighted mean of its neighbourhood does not. Translations: weighted mean. Rotations:
 // the eigenvector of the largest eigenvalue of sum w q q^T (Markley, Cheng, Crassidis, Oshman,
-// "Averaging Quaternions", 2007), which does not mind the quaternions' signs. A shift that would lower
-// the density is not taken (the cut kernel does not promise ascent), so the result never is a worse
-// mode than the start. Cost: a few neighbourhood queries.
+// "Averaging Quaternions", 2007), which does not mind the quaternions' signs. A shift that would
+// lower the density is not taken (the cut kernel does not promise ascent), so the result never is a
+// worse mode than the start. Cost: a few neighbourhood queries.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <vector>
 
 #include "nodes/data/votes.hpp"
+#include "nodes/segment/find_modes.hpp"
 
 namespace posevote {
-
-/// A pose as votes express it.
-struct PoseMode {
-  Eigen::Vector3f center = Eigen::Vector3f::Zero();  ///< where the model's centre lands [m]
-  Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();
-};
-
-/// The pose of one vote.
-PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote);
 
 /// The pose shifted to a place where it is the mean of its neighbourhood. Only votes with alive[v]
 /// count.

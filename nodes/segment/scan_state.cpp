@@ -21,10 +21,10 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {
   const PointGrid grid(model.cloud.points, distance);
-  surface.take_out(explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals,
-                                  distance));
-  const std::vector<char> now = explain_points(model.cloud, grid, T_scene_model, features.points,
-                                               features.normals, distance);
+  surface.take_out(
+      explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance));
+  const std::vector<char> now =
+      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
   for (std::size_t i = 0; i < now.size(); ++i)
     feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
 }

@@ -24,8 +24,8 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
 /// Reading is safe from many threads.
 class ScanSurface {
  public:
-  /// The points of `scan`; those without a normal are never found. `single_view`: whether the scan is
-  /// what one sensor at its viewpoint saw (RangeView::usable); if not, a point counts as visible
+  /// The points of `scan`; those without a normal are never found. `single_view`: whether the scan
+  /// is what one sensor at its viewpoint saw (RangeView::usable); if not, a point counts as visible
   /// whichever way it looks. `cell`: about the distance that is asked for most [m].
   ScanSurface(const Cloud& scan, bool single_view, float cell);
 

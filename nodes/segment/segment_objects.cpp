@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Greedy segmentation of a scan into objects (Buch, Kiforenko, Kraft, ICCV 2017, section 4): objects in
-// descending number of correspondences; for each the densest pose vote, shifted to its neighbourhood's
-// mean, refined by ICP, judged by what the sensor measured, and the scan points it explains taken out
-// before the next mode is sought. Correspondences that start at explained points are taken out of all
-// objects; their votes are subtracted from the densities, which equals voting anew without them.
-// Many instances of an object: the best vote of each correspondence, thinned by non-maximum
-// suppression. Cost: per mode tried a few neighbourhood queries, one ICP and one fit measure.
-// A scan without votes gives no detections; that is no failure.
+// Greedy segmentation of a scan into objects (Buch, Kiforenko, Kraft, ICCV 2017, section 4):
+// objects in descending number of correspondences; for each the mode of the vote density that
+// agrees best with the scan, refined by ICP (choose_candidate.hpp), and the scan points it explains
+// taken out before the next is sought. Correspondences that start at explained points are taken out
+// of all objects; their votes are subtracted from the densities, which equals voting anew without
+// them. The score rests on what the sensor measured, free space included (measure_fit.cpp). Cost:
+// per instance up to `candidates` neighbourhood queries and glances, five ICPs, one subtraction. A
+// scan without votes gives no detections; that is no failure. Points without a normal are never
+// matched. Known limits: an object of which one flat side alone is seen scores low; of two objects
+// that claim the same points the one with more correspondences gets them.
 //
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -30,7 +33,7 @@ constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_d
 
 struct Params {
   int max_instances = 1;
-  int candidates = 30;
+  int candidates = 100;
   double nms = 0.2;
   double min_density = 3;
   double min_score = 0.2;
@@ -60,8 +63,7 @@ std::vector<std::size_t> order_objects(const PerObject<VoteSet>& votes) {
   std::stable_sort(order.begin(), order.end(), [&votes](std::size_t a, std::size_t b) {
     const std::size_t count_a = votes[a].scene_feature.size();
     const std::size_t count_b = votes[b].scene_feature.size();
-    return count_a != count_b ? count_a > count_b
-                              : votes[a].model->obj_id < votes[b].model->obj_id;
+    return count_a != count_b ? count_a > count_b : votes[a].model->obj_id < votes[b].model->obj_id;
   });
   return order;
 }
@@ -73,9 +75,8 @@ Detection make_detection(const LiveVotes& object, const Candidate& candidate) {
   detection.model = model.name;
   detection.score = candidate.score;
   detection.density = raw_density(*object.raw, candidate.mode);
-  detection.runner_up_density =
-      runner_up_density(*object.votes, object.raw->density, candidate.mode.center,
-                        kRunnerUpRadius * model.diagonal);
+  detection.runner_up_density = runner_up_density(
+      *object.votes, object.raw->density, candidate.mode.center, kRunnerUpRadius * model.diagonal);
   detection.inlier_fraction = candidate.fit.inlier_fraction;
   detection.rmse = candidate.fit.rmse;
   detection.T_scene_model = candidate.T_scene_model;
@@ -99,10 +100,30 @@ void find_instances(LiveVotes& object, ScanState& scan, const Params& params, De
   }
 }
 
+/// A point set without a normal for each point is refused; a normal of length 0 is not.
+void check_normals(const std::string& what, const PointMatrix& points, const PointMatrix& normals) {
+  if (normals.rows() == points.rows()) return;
+  throw std::runtime_error(what + " has " + std::to_string(points.rows()) + " points but " +
+                           std::to_string(normals.rows()) + " normals");
+}
+
+void check_inputs(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
+                  const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale) {
+  if (!(scale.resolution > 0) || !std::isfinite(scale.resolution))
+    throw std::runtime_error("resolution is " + std::to_string(scale.resolution) +
+                             " m, expected more than 0");
+  check_normals("the scan", scene_cloud.points, scene_cloud.normals);
+  check_normals("the feature set", scene_features.points, scene_features.normals);
+  check_votes(votes, densities, static_cast<std::size_t>(scene_features.points.rows()));
+  for (const auto& slot : votes.slots)
+    check_normals("model " + slot->model->name, slot->model->cloud.points,
+                  slot->model->cloud.normals);
+}
+
 Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
                            const FeatureSet& scene_features, const Cloud& scene_cloud,
                            const Scale& scale, const Params& params) {
-  check_inputs(votes, densities, scene_features, scale);
+  check_inputs(votes, densities, scene_features, scene_cloud, scale);
   ScanState scan(scene_cloud, scene_features, scale.resolution);
   Detections found;
   for (const std::size_t i : order_objects(votes)) {
@@ -125,7 +146,7 @@ const auto registered =
         .param("max_instances", &Params::max_instances, "", "Instances per object, at most.",
                graph::in_range(1, 1000))
         .param("candidates", &Params::candidates, "",
-               "Densest modes that are compared for each instance; 1: only the densest.",
+               "Densest modes of which each instance is chosen; 1: the densest, as in the paper.",
                graph::in_range(1, 10000))
         .param("nms", &Params::nms, "x diagonal",
                "Modes of one object lie farther apart than this share of its bounding box.",
@@ -142,8 +163,7 @@ const auto registered =
         .param("icp_iterations", &Params::icp_iterations, "", "Iterations of ICP, at most.",
                graph::in_range(1, 1000))
         .param("inlier_distance", &Params::inlier_distance, "x resolution",
-               "A model point with a scan point this near is supported.",
-               graph::in_range(0.1, 100))
+               "A model point with a scan point this near is supported.", graph::in_range(0.1, 100))
         .param("explained_distance", &Params::explained_distance, "x resolution",
                "Scan points this near to a detection are taken out.", graph::in_range(0.1, 100));
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -19,32 +20,48 @@ namespace posevote::test {
 
 inline constexpr float kResolution = 0.003F;
 
-/// Distance of the surface from the body's origin in a direction; `shape` chooses the body.
-inline double bumpy_radius(const Eigen::Vector3d& direction, int shape) {
-  std::mt19937 random(static_cast<std::uint32_t>(shape) * 7919U + 1U);
-  const auto uniform = [&random](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-  };
-  double sum = 1;
-  for (int wave = 0; wave < 6; ++wave) {
-    const Eigen::Vector3d axis(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-    sum += 0.11 * std::sin(uniform(2, 6) * axis.normalized().dot(direction) + uniform(0, 6));
+/// A star-shaped body: radius = 5 cm x (1 + six waves); the seed chooses the waves.
+class BumpyBody {
+ public:
+  explicit BumpyBody(int seed) {
+    std::mt19937 random(static_cast<std::uint32_t>(seed) * 7919U + 1U);
+    const auto uniform = [&random](double low, double high) {
+      return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
+    };
+    for (Wave& wave : waves_) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) wave.direction[axis] = uniform(-1, 1);
+      wave.direction = uniform(2, 6) * wave.direction.normalized();
+      wave.phase = uniform(0, 6);
+    }
   }
-  return 0.05 * sum;
-}
 
-inline Eigen::Vector3d bumpy_normal(const Eigen::Vector3d& direction, int shape) {
-  const auto level = [shape](const Eigen::Vector3d& p) {
-    return p.norm() - bumpy_radius(p.normalized(), shape);
-  };
-  const Eigen::Vector3d p = bumpy_radius(direction, shape) * direction;
-  Eigen::Vector3d gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d h = 1e-5 * Eigen::Vector3d::Unit(axis);
-    gradient[axis] = level(p + h) - level(p - h);
+  double radius(const Eigen::Vector3d& direction) const {
+    double sum = 1;
+    for (const Wave& wave : waves_)
+      sum += 0.11 * std::sin(wave.direction.dot(direction) + wave.phase);
+    return 0.05 * sum;
   }
-  return gradient.normalized();
-}
+
+  Eigen::Vector3d normal(const Eigen::Vector3d& direction) const {
+    const auto level = [this](const Eigen::Vector3d& p) {
+      return p.norm() - radius(p.normalized());
+    };
+    const Eigen::Vector3d p = radius(direction) * direction;
+    Eigen::Vector3d gradient;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d h = 1e-5 * Eigen::Vector3d::Unit(axis);
+      gradient[axis] = level(p + h) - level(p - h);
+    }
+    return gradient.normalized();
+  }
+
+ private:
+  struct Wave {
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    double phase = 0;
+  };
+  std::array<Wave, 6> waves_;
+};
 
 /// The whole surface, about one point per spacing^2. `roll` turns the sampling, not the body.
 inline Cloud bumpy_cloud(int shape, float spacing, double roll = 0) {
@@ -52,6 +69,7 @@ inline Cloud bumpy_cloud(int shape, float spacing, double roll = 0) {
   const int count = static_cast<int>(area / static_cast<double>(spacing * spacing));
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(roll, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const BumpyBody body(shape);
   Cloud cloud;
   cloud.points.resize(count, 3);
   cloud.normals.resize(count, 3);
@@ -60,8 +78,8 @@ inline Cloud bumpy_cloud(int shape, float spacing, double roll = 0) {
     const double ring = std::sqrt(1 - z * z);
     const Eigen::Vector3d d =
         turn * Eigen::Vector3d(ring * std::cos(angle), ring * std::sin(angle), z);
-    cloud.points.row(i) = (bumpy_radius(d, shape) * d).cast<float>().transpose();
-    cloud.normals.row(i) = bumpy_normal(d, shape).cast<float>().transpose();
+    cloud.points.row(i) = (body.radius(d) * d).cast<float>().transpose();
+    cloud.normals.row(i) = body.normal(d).cast<float>().transpose();
   }
   return cloud;
 }

@@ -73,11 +73,9 @@ TrueObject read_object(const json& info) {
                            info.at("size_" + axes[axis]).get<double>() / 2) *
                           kMetresPerUnit;
   object.symmetries = {Eigen::Isometry3d::Identity()};
-  const json discrete = info.value("symmetries_discrete", json::array());
-  for (const json& matrix : discrete)
+  for (const json& matrix : info.value("symmetries_discrete", json::array()))
     object.symmetries.push_back(read_symmetry(matrix));
-  const json continuous = info.value("symmetries_continuous", json::array());
-  for (const json& symmetry : continuous) {
+  for (const json& symmetry : info.value("symmetries_continuous", json::array())) {
     const std::vector<double> axis = numbers(symmetry.at("axis"), 3, "axis");
     object.axes.push_back(Eigen::Vector3d(axis[0], axis[1], axis[2]).normalized());
     if (!object.axes.back().allFinite() || object.axes.back().isZero())
@@ -141,8 +139,8 @@ void read_scene(const fs::path& folder, int scene_id, GroundTruth& truth) {
 
 void read_objects(const fs::path& folder, GroundTruth& truth) {
   const fs::path file = folder / "models_info.json";
-  const json objects = read_json(file);
-  for (const auto& item : objects.items()) {
+  const json infos = read_json(file);
+  for (const auto& item : infos.items()) {
     const int obj_id = number_of(item.key());
     if (obj_id < 0) fail(file, "'" + item.key() + "' is no obj_id");
     truth.objects[obj_id] =

@@ -9,7 +9,7 @@
 namespace posevote {
 namespace {
 
-constexpr Eigen::Index kMostPoints = 2000;
+constexpr Eigen::Index kMostPoints = 1000;
 
 Eigen::Matrix3Xd sample_of(const PointMatrix& points) {
   const Eigen::Index count = std::min(points.rows(), kMostPoints);
@@ -21,7 +21,7 @@ Eigen::Matrix3Xd sample_of(const PointMatrix& points) {
 
 /// Distance to the nearest point, found in growing balls.
 double nearest_distance(const PointGrid& grid, const Eigen::Vector3d& point, double diameter) {
-  for (const double radius : {0.05, 0.2, 1.0, 5.0})
+  for (const double radius : {0.03, 0.1, 0.3, 1.0, 5.0})
     if (const auto near = grid.nearest(point.cast<float>(), static_cast<float>(radius * diameter)))
       return std::sqrt(double{near->squared});
   return std::numeric_limits<double>::infinity();
@@ -32,14 +32,14 @@ double nearest_distance(const PointGrid& grid, const Eigen::Vector3d& point, dou
 PoseMeter::PoseMeter(const TrueObject& object)
     : object_(&object),
       sample_(sample_of(object.points)),
-      grid_(object.points, static_cast<float>(object.diameter / 10)) {}
+      grid_(object.points, static_cast<float>(object.diameter / 15)) {}
 
 PoseError PoseMeter::measure(const Eigen::Isometry3d& T_true,
                              const Eigen::Isometry3d& T_found) const {
   PoseError error;
   error.center = (T_true * object_->center - T_found * object_->center).norm();
   error.rotation = rotation_error(T_true.linear(), T_found.linear());
-  if (error.center > 2 * object_->diameter)
+  if (error.center > object_->diameter)
     error.add = std::numeric_limits<double>::infinity();
   else
     error.add = object_->symmetric() ? adi(T_true, T_found) : add(T_true, T_found);

@@ -11,12 +11,12 @@ struct PoseError {
   double center = 0;    ///< distance of the model centres [m]
   double rotation = 0;  ///< [rad]; the smallest over the object's symmetries
   double add = 0;       ///< ADD, for symmetric objects ADI [m]; infinity where the centres are
-                        ///< more than two diameters apart
+                        ///< more than a diameter apart
 };
 
 /// Measures the poses of one object (Hinterstoisser 2012: ADD is the mean distance between a model
 /// point in one pose and the same point in the other; ADI, the closest point in the other). At most
-/// 2000 model points are measured, evenly taken from the file.
+/// 1000 model points are measured, evenly taken from the file.
 class PoseMeter {
  public:
   explicit PoseMeter(const TrueObject& object);

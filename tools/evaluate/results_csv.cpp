@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/evaluate/results_csv.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -25,8 +26,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
 template <class T>
 T parse(const std::string& text, const std::string& name) {
   const std::optional<T> value = graph::Scalar<T>::parse(text);
-  if (!value)
-    throw std::invalid_argument(name + " is '" + text + "', expected " + graph::Scalar<T>::kName);
+  if (!value || !std::isfinite(static_cast<double>(*value)))
+    throw std::invalid_argument(name + " is '" + text + "', expected a finite " +
+                                graph::Scalar<T>::kName);
   return *value;
 }
 

@@ -52,8 +52,8 @@ std::vector<Body> arrange(const SceneSpec& scene, const Meshes& models, Random& 
 
 void simulate(const std::string& spec_file, const std::filesystem::path& out) {
   const Spec spec = read_spec(spec_file);
-  const Meshes models = make_models(spec);
   BopWriter writer(out);
+  const Meshes models = make_models(spec);
   for (std::size_t i = 0; i < models.size(); ++i)
     writer.add_model(static_cast<int>(i) + 1, *models[i]);
   for (std::size_t i = 0; i < spec.scenes.size(); ++i) {

@@ -2,6 +2,7 @@
 #include "nodes/segment/find_modes.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace posevote;
 
@@ -14,6 +15,8 @@ VoteSet votes_at(const std::vector<float>& x) {
   votes.tx = x;
   votes.ty.assign(x.size(), 0.0F);
   votes.tz.assign(x.size(), 0.0F);
+  votes.qw.assign(x.size(), 1.0F);
+  votes.qx = votes.qy = votes.qz = votes.tz;
   return votes;
 }
 
@@ -23,27 +26,58 @@ const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 TEST_CASE("each correspondence gives its best vote, the densest first", "[segment]") {
   const VoteSet votes = votes_at({0, 1, 2, 3, 4, 5, 6, 7});
-  CHECK(best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}) == std::vector<std::uint32_t>{2, 1, 6});
+  CHECK(best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}, 0) == std::vector<std::uint32_t>{2, 1, 6});
 }
 
 TEST_CASE("of equal votes the first is the best", "[segment]") {
-  CHECK(best_votes(votes_at({0, 1, 2, 3}), {3, 3, 5, 5}) == std::vector<std::uint32_t>{2, 0});
+  CHECK(best_votes(votes_at({0, 1, 2, 3}), {3, 3, 5, 5}, 0) == std::vector<std::uint32_t>{2, 0});
 }
 
 TEST_CASE("no votes have no modes", "[segment]") {
-  CHECK(best_votes(VoteSet{}, {}).empty());
-  CHECK(best_votes(votes_at({}), {}).empty());
-  CHECK_FALSE(next_mode(votes_at({}), {}, {}, 1.0F));
+  CHECK(best_votes(VoteSet{}, {}, 0).empty());
+  CHECK(best_votes(votes_at({}), {}, 0).empty());
+  CHECK(separate_modes(votes_at({}), {}, {}, 1.0F, 9).empty());
   CHECK(runner_up_density(votes_at({}), {}, kOrigin, 1.0F) == 0);
+}
+
+TEST_CASE("votes below the threshold are no modes", "[segment]") {
+  const VoteSet votes = votes_at({0, 1, 2, 3});
+  CHECK(best_votes(votes, {1, 2, 3, 4}, 3) == std::vector<std::uint32_t>{3});
+  CHECK(best_votes(votes, {1, 2, 3, 4}, 2) == std::vector<std::uint32_t>{3, 1});
 }
 
 TEST_CASE("non-maximum suppression leaves out what lies within the radius", "[segment]") {
   const VoteSet votes = votes_at({0, 0.5F, 1.5F, 3});
-  const std::vector<std::uint32_t> candidates{0, 1, 2, 3};
-  CHECK(next_mode(votes, candidates, {}, 1.0F) == 0U);
-  CHECK(next_mode(votes, candidates, {{0, 0, 0}}, 1.0F) == 2U);
-  CHECK(next_mode(votes, candidates, {{0, 0, 0}}, 1.5F) == 3U);
-  CHECK_FALSE(next_mode(votes, candidates, {{0, 0, 0}, {3, 0, 0}}, 1.5F));
+  const std::vector<std::uint32_t> best{0, 1, 2, 3};
+  const auto places = [&](const std::vector<Eigen::Vector3f>& taken, float radius) {
+    std::vector<float> x;
+    for (const PoseMode& mode : separate_modes(votes, best, taken, radius, 9))
+      x.push_back(mode.center.x());
+    return x;
+  };
+  CHECK(places({}, 1.0F) == std::vector<float>{0, 1.5F, 3});
+  CHECK(places({}, 1.5F) == std::vector<float>{0, 3});
+  CHECK(places({}, 0.1F) == std::vector<float>{0, 0.5F, 1.5F, 3});
+  CHECK(places({{0, 0, 0}}, 1.0F) == std::vector<float>{1.5F, 3});
+  CHECK(places({{0, 0, 0}, {3, 0, 0}}, 1.5F).empty());
+  CHECK(separate_modes(votes, best, {}, 0.1F, 2).size() == 2);
+}
+
+TEST_CASE("a place may be judged in three quite different rotations", "[segment]") {
+  VoteSet votes = votes_at({0, 0, 0, 0, 0, 0});
+  const std::vector<float> degrees{0, 50, 90, 140, 180, 270};
+  for (std::size_t v = 0; v < 6; ++v) {
+    const float half = degrees[v] / 114.59156F;
+    const float sign = v % 2 == 0 ? 1.0F : -1.0F;  // both name the same rotation
+    votes.qw[v] = sign * std::cos(half);
+    votes.qz[v] = sign * std::sin(half);
+  }
+  const std::vector<PoseMode> modes = separate_modes(votes, {0, 1, 2, 3, 4, 5}, {}, 1.0F, 9);
+  REQUIRE(modes.size() == 3);
+  CHECK(modes[0].rotation.w() == votes.qw[0]);
+  CHECK(modes[1].rotation.w() == votes.qw[2]);
+  CHECK(modes[2].rotation.w() == votes.qw[4]);
+  CHECK(separate_modes(votes, {0, 1, 2, 3, 4, 5}, {{0, 0, 0}}, 1.0F, 9).empty());
 }
 
 TEST_CASE("the runner-up is the densest vote elsewhere", "[segment]") {

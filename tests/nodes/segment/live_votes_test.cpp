@@ -77,40 +77,37 @@ TEST_CASE("what is explained step by step leaves the densities of voting anew", 
 TEST_CASE("all explained leaves nothing", "[segment]") {
   const Scene scene = make_scene();
   LiveVotes object = all_votes(scene.votes, scene.density);
-  remove_explained(object, std::vector<char>(
-                               static_cast<std::size_t>(scene.features.points.rows()), 1));
+  remove_explained(object,
+                   std::vector<char>(static_cast<std::size_t>(scene.features.points.rows()), 1));
   for (const double density : object.density) CHECK(density == 0);
 }
 
 TEST_CASE("inputs that do not belong together are refused", "[segment]") {
   const Scene scene = make_scene();
-  const auto check = [&scene](const VoteSet& votes, const VoteDensity& density, float resolution) {
-    check_inputs({{std::make_shared<const VoteSet>(votes)}},
-                 {{std::make_shared<const VoteDensity>(density)}}, scene.features, {resolution});
+  const auto features = static_cast<std::size_t>(scene.features.points.rows());
+  const auto check = [features](const VoteSet& votes, const VoteDensity& density) {
+    check_votes({{std::make_shared<const VoteSet>(votes)}},
+                {{std::make_shared<const VoteDensity>(density)}}, features);
   };
-  CHECK_NOTHROW(check(scene.votes, scene.density, kResolution));
-  CHECK_THROWS_WITH(check(scene.votes, scene.density, 0), Catch::Contains("resolution is 0"));
-  CHECK_THROWS_WITH(check(scene.votes, scene.density, std::nanf("")), Catch::Contains("nan"));
-  CHECK_THROWS_AS(check_inputs({{std::make_shared<const VoteSet>(scene.votes)}}, {},
-                               scene.features, {kResolution}),
+  CHECK_NOTHROW(check(scene.votes, scene.density));
+  CHECK_THROWS_AS(check_votes({{std::make_shared<const VoteSet>(scene.votes)}}, {}, features),
                   std::runtime_error);
   VoteSet broken = scene.votes;
   broken.qz.pop_back();
-  CHECK_THROWS_WITH(check(broken, scene.density, kResolution), Catch::Contains("bumpy1"));
+  CHECK_THROWS_WITH(check(broken, scene.density), Catch::Contains("bumpy1"));
   broken = scene.votes;
   broken.scene_feature[3] = 1000000;
-  CHECK_THROWS_WITH(check(broken, scene.density, kResolution),
-                    Catch::Contains("scene feature 1000000"));
+  CHECK_THROWS_WITH(check(broken, scene.density), Catch::Contains("scene feature 1000000"));
   broken = scene.votes;
   broken.model = nullptr;
-  CHECK_THROWS_AS(check(broken, scene.density, kResolution), std::runtime_error);
+  CHECK_THROWS_AS(check(broken, scene.density), std::runtime_error);
   broken = scene.votes;
   broken.votes_per_correspondence = 0;
-  CHECK_THROWS_AS(check(broken, scene.density, kResolution), std::runtime_error);
+  CHECK_THROWS_AS(check(broken, scene.density), std::runtime_error);
   VoteDensity short_density = scene.density;
   short_density.density.pop_back();
-  CHECK_THROWS_AS(check(scene.votes, short_density, kResolution), std::runtime_error);
+  CHECK_THROWS_AS(check(scene.votes, short_density), std::runtime_error);
   short_density = scene.density;
   short_density.index = nullptr;
-  CHECK_THROWS_WITH(check(scene.votes, short_density, kResolution), Catch::Contains("index"));
+  CHECK_THROWS_WITH(check(scene.votes, short_density), Catch::Contains("index"));
 }

@@ -46,7 +46,8 @@ TEST_CASE("a view moves with its viewpoint and turns with the scan", "[segment]"
   const RangeView view(scan, kResolution);
   REQUIRE(view.usable());
   const Eigen::Vector3f point = (T * Eigen::Vector3d(0.05, -0.1, 0.7)).cast<float>();
-  CHECK(view.measured_range(point) == Approx(1.0 / 0.7 * std::sqrt(0.0025 + 0.01 + 0.49)).margin(0.003));
+  CHECK(view.measured_range(point) ==
+        Approx(1.0 / 0.7 * std::sqrt(0.0025 + 0.01 + 0.49)).margin(0.003));
 }
 
 TEST_CASE("what is no single view is not used as one", "[segment]") {

@@ -12,8 +12,8 @@ using namespace posevote;
 namespace {
 
 const Eigen::Vector3f kCenter(0.1F, -0.2F, 0.7F);
-const Eigen::Quaternionf kRotation(
-    Eigen::AngleAxisf(2.0F, Eigen::Vector3f(1, -2, 0.5F).normalized()));
+const Eigen::Quaternionf kRotation(Eigen::AngleAxisf(2.0F,
+                                                     Eigen::Vector3f(1, -2, 0.5F).normalized()));
 
 void add_vote(VoteSet& votes, const Eigen::Vector3f& t, const Eigen::Quaternionf& q, float sign) {
   votes.tx.push_back(t.x());
@@ -69,6 +69,21 @@ TEST_CASE("a shift never lowers the density", "[segment]") {
     const PoseMode mode = refine_mode(votes, density, alive, start);
     CHECK(raw_density(density, mode) >= raw_density(density, start));
   }
+}
+
+TEST_CASE("a mean that loses one side's votes is not taken", "[segment]") {
+  VoteSet votes;
+  votes.votes_per_correspondence = 1;
+  const auto add = [&votes](int count, float x) {
+    for (int i = 0; i < count; ++i)
+      add_vote(votes, kCenter + Eigen::Vector3f(x, 0, 0), kRotation, 1.0F);
+  };
+  add(10, 0.0095F);
+  add(6, -0.0095F);
+  const VoteDensity density = density_of(votes);
+  const PoseMode start{kCenter, kRotation};
+  const PoseMode mode = refine_mode(votes, density, std::vector<char>(16, 1), start);
+  CHECK(mode.center == start.center);
 }
 
 TEST_CASE("dead votes pull no mode", "[segment]") {

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/match/descriptor_index.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+
+using namespace posevote;
+
+namespace {
+
+DescriptorMatrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937 random(seed);
+  DescriptorMatrix matrix(rows, columns);
+  for (float& value : matrix.reshaped()) value = static_cast<float>(random()) / 4294967296.0F;
+  return matrix;
+}
+
+/// The definition: smallest distance in double, of equals the smallest row.
+TwoNearest naive(const DescriptorMatrix& rows, const DescriptorMatrix& queries,
+                 Eigen::Index query) {
+  std::vector<std::pair<double, std::uint32_t>> all;
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    double sum = 0;
+    for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+      const double d = static_cast<double>(rows(row, k)) - static_cast<double>(queries(query, k));
+      sum += d * d;
+    }
+    all.emplace_back(sum, static_cast<std::uint32_t>(row));
+  }
+  std::sort(all.begin(), all.end());
+  const auto& second = all[all.size() > 1 ? 1 : 0];
+  return {{all[0].second, second.second},
+          {static_cast<float>(all[0].first), static_cast<float>(second.first)}};
+}
+
+/// How many queries were not answered exactly as by the definition.
+int mistakes(const DescriptorMatrix& rows, const DescriptorMatrix& queries,
+             const std::string& search) {
+  const auto nearest = DescriptorIndex({&rows}, {search}).nearest_two(queries);
+  int wrong = 0;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const TwoNearest expected = naive(rows, queries, static_cast<Eigen::Index>(i));
+    wrong += !std::equal(expected.row, expected.row + 2, nearest[i].row) ||
+             !std::equal(expected.squared, expected.squared + 2, nearest[i].squared);
+  }
+  return wrong + static_cast<int>(nearest.size()) - static_cast<int>(queries.rows());
+}
+
+}  // namespace
+
+TEST_CASE("exact search equals the definition at every size", "[match]") {
+  for (const std::string search : {"exact", "kd_tree"})
+    for (const Eigen::Index rows : {1, 2, 31, 33, 2049, 2500})
+      for (const Eigen::Index columns : {1, 33, 240}) {
+        INFO(search << " " << rows << " x " << columns);
+        CHECK(mistakes(random_matrix(rows, columns, 1), random_matrix(97, columns, 2), search) ==
+              0);
+      }
+}
+
+TEST_CASE("of equally near rows the smaller comes first", "[match]") {
+  for (const std::string search : {"exact", "kd_tree"}) {
+    INFO(search);
+    const DescriptorMatrix once = random_matrix(60, 20, 3);
+    DescriptorMatrix rows(300, 20);
+    rows << once, once, once, once, once;
+    CHECK(mistakes(rows, random_matrix(50, 20, 4), search) == 0);
+    const auto same = DescriptorIndex({&rows}, {search}).nearest_two(once);
+    CHECK(same[7].row[0] == 7);
+    CHECK(same[7].row[1] == 67);
+    CHECK(same[7].squared[1] == 0);
+  }
+}
+
+TEST_CASE("exact search stays exact where float products cancel", "[match]") {
+  DescriptorMatrix rows = random_matrix(3000, 64, 5);
+  DescriptorMatrix queries = random_matrix(40, 64, 6);
+  rows.array() = 1000 + 0.01F * rows.array();
+  queries.array() = 1000 + 0.01F * queries.array();
+  CHECK(mistakes(rows, queries, "exact") == 0);
+  rows *= 1e30F;  // |b|^2 is beyond float, and so are the products
+  queries *= 1e30F;
+  CHECK(mistakes(rows, queries, "exact") == 0);
+}
+
+TEST_CASE("rows are counted through all blocks, empty ones too", "[match]") {
+  const DescriptorMatrix a = random_matrix(5, 8, 1), none, b = random_matrix(40, 8, 2);
+  const auto nearest = DescriptorIndex({&a, &none, &b}, {}).nearest_two(b);
+  for (std::uint32_t i = 0; i < 40; ++i) CHECK(nearest[i].row[0] == i + 5);
+}
+
+TEST_CASE("the approximate forest mostly finds the nearest, and says what it is", "[match]") {
+  const DescriptorMatrix rows = random_matrix(2000, 8, 1);
+  const DescriptorIndex index({&rows}, {"approximate", 4, 512});
+  CHECK_FALSE(index.reproducible());
+  CHECK(DescriptorIndex({&rows}, {"kd_tree"}).reproducible());
+  CHECK(DescriptorIndex({&rows}, {"exact"}).reproducible());
+  CHECK(mistakes(rows, random_matrix(200, 8, 2), "approximate") < 20);
+  const DescriptorMatrix one = rows.topRows(1);
+  CHECK(DescriptorIndex({&one}, {"approximate"}).nearest_two(one)[0].squared[1] == 0);
+}
+
+TEST_CASE("an index refuses what it cannot search", "[match]") {
+  const DescriptorMatrix none, a = random_matrix(3, 8, 1), b = random_matrix(3, 9, 1);
+  CHECK_THROWS_WITH(DescriptorIndex({}, {}), Catch::Contains("no descriptors"));
+  CHECK_THROWS_WITH(DescriptorIndex({&none}, {}), Catch::Contains("no descriptors"));
+  CHECK_THROWS_WITH(DescriptorIndex({&a, &b}, {}), Catch::Contains("of 9 and of 8 numbers"));
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {"guess"}), Catch::Contains("guess"));
+  const DescriptorIndex index({&a}, {});
+  CHECK(index.nearest_two(none).empty());
+  CHECK_THROWS_WITH(index.nearest_two(b), Catch::Contains("have 9 numbers, the library's 8"));
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    DescriptorMatrix broken = a;
+    broken(1, 1) = bad;
+    CHECK_THROWS_WITH(DescriptorIndex({&broken}, {}), Catch::Contains("not finite"));
+    CHECK_THROWS_WITH(index.nearest_two(broken), Catch::Contains("not finite"));
+  }
+}

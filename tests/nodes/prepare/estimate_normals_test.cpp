@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <limits>
+
+#include "nodes/data/features.hpp"
+#include "nodes/load/read_cloud.hpp"
+#include "nodes/prepare/normals.hpp"
+#include "nodes/prepare/plane_normals.hpp"
+#include "nodes/prepare/winding.hpp"
+#include "tests/support/real_data.hpp"
+#include "tests/support/run_node.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace posevote;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+const Scale kScale{0.0015F};
+
+Cloud oriented(Cloud scan, const std::map<std::string, std::string>& params = {}) {
+  return test::run_node<Cloud>("estimate_normals", params, std::move(scan), kScale);
+}
+
+/// 1.5 mm between points; the sensor far along z.
+Cloud sphere_scan(float noise = 0) {
+  Cloud scan;
+  scan.points = test::shaken(test::sphere(14000, 0.05F), noise);
+  scan.viewpoint = {0, 0, 10};
+  return scan;
+}
+
+/// Outward normals of sphere_scan, turned to the sensor.
+PointMatrix toward_sensor() {
+  PointMatrix normals = test::sphere(14000, 1);
+  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+    if (normals(i, 2) < 0) normals.row(i) *= -1.0F;
+  return normals;
+}
+
+/// Mean angle to these [deg], but for the limb, where the sensor looks along the surface.
+double error_of(const Cloud& out) {
+  const PointMatrix truth = toward_sensor();
+  REQUIRE(out.normals.rows() == truth.rows());
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index i = 0; i < truth.rows(); ++i)
+    if (truth(i, 2) > 0.5F) seen.push_back(i);
+  return test::mean_angle(out.normals(seen, Eigen::all), truth(seen, Eigen::all));
+}
+
+}  // namespace
+
+TEST_CASE("estimate_normals finds those of a sphere, toward the sensor", "[prepare]") {
+  const Cloud out = oriented(sphere_scan());
+  REQUIRE(out.points.rows() == 14000);
+  CHECK(error_of(out) < 1);
+  CHECK(out.viewpoint == Eigen::Vector3f(0, 0, 10));
+  for (Eigen::Index i = 0; i < out.points.rows(); ++i)
+    REQUIRE(out.normals.row(i).dot(out.viewpoint.transpose() - out.points.row(i)) >= 0);
+}
+
+TEST_CASE("estimate_normals widens its neighbourhoods with the noise", "[prepare]") {
+  CHECK(suitable_radius(sphere_scan().points, 0.0045F, 3) < 0.006F);
+  CHECK(suitable_radius(sphere_scan(0.0075F).points, 0.0045F, 3) > 0.010F);
+  CHECK(error_of(oriented(sphere_scan(0.0025F))) < 5);
+  CHECK(error_of(oriented(sphere_scan(0.0075F))) < 9);
+}
+
+TEST_CASE("estimate_normals turns with the scan and does not mind the order", "[prepare]") {
+  const Cloud scan = sphere_scan(0.001F);
+  const Cloud plain = oriented(scan);
+  Cloud turned = scan;
+  turned.points = scan.points * test::some_rotation().transpose();
+  turned.viewpoint = test::some_rotation() * scan.viewpoint;
+  CHECK(test::mean_angle(oriented(turned).normals,
+                         plain.normals * test::some_rotation().transpose()) < 3);
+  const std::vector<Eigen::Index> order = test::shuffled(scan.points.rows());
+  Cloud mixed = scan;
+  mixed.points = scan.points(order, Eigen::all);
+  CHECK(test::mean_angle(oriented(mixed).normals, plain.normals(order, Eigen::all)) < 0.5);
+}
+
+TEST_CASE("estimate_normals takes the file's normals where they are usable", "[prepare]") {
+  Cloud scan = sphere_scan();
+  scan.normals = PointMatrix::Constant(14000, 3, 2);  // of no length one, and wrong on purpose
+  scan.normals.row(1).setZero();
+  scan.normals.row(2) << kNan, 0, 1;
+  scan.normals.row(3) << -1e-20F, 0, 0;
+  const Cloud out = oriented(scan);
+  CHECK(out.normals.row(7).isApprox(Eigen::RowVector3f::Constant(std::sqrt(1.0F / 3)), 1e-5F));
+  const PointMatrix truth = toward_sensor();
+  for (const int i : {1, 2, 3}) CHECK(out.normals.row(i).dot(truth.row(i)) > 0.99F);
+  CHECK(out.dropped == 0);
+
+  const Cloud only_file = oriented(scan, {{"source", "file"}});
+  CHECK(only_file.points.rows() == 13997);
+  CHECK(only_file.dropped == 3);
+  CHECK(error_of(oriented(scan, {{"source", "pca"}})) < 1);
+}
+
+TEST_CASE("estimate_normals turns the file's normals to the sensor", "[prepare]") {
+  Cloud scan;
+  scan.points.resize(2, 3);
+  scan.points << 0, 0, 1, 0, 0, 1.1F;
+  scan.normals.resize(2, 3);
+  scan.normals << 0, 0, 1, 0, 0, -1;
+  const Cloud out = oriented(scan);
+  CHECK(out.normals(0, 2) == -1);
+  CHECK(out.normals(1, 2) == -1);
+}
+
+TEST_CASE("estimate_normals takes faces, drops what none covers, and drops faces", "[prepare]") {
+  Cloud scan = test::box({0, 0, 0}, 0.2F);
+  scan.points.conservativeResize(9, 3);
+  scan.points.row(8) << 5, 5, 5;
+  scan.viewpoint = {9, 9, 9};
+  scan.dropped = 2;
+  const Cloud out = oriented(scan);
+  CHECK(out.points.rows() == 8);
+  CHECK(out.dropped == 3);
+  CHECK(out.faces.rows() == 0);
+  CHECK(out.normals.row(7).minCoeff() > 0.3F);
+  CHECK(oriented(scan, {{"source", "faces"}}).points.rows() == 8);
+}
+
+TEST_CASE("estimate_normals does without points that have no surface around them", "[prepare]") {
+  Cloud scan = sphere_scan();
+  scan.points.row(10) << 1000, 0, 0;
+  scan.points.row(11) << kNan, 0, 0;
+  for (Eigen::Index i = 100; i < 110; ++i)  // ten on a line
+    scan.points.row(i) << 1 + 0.0005F * static_cast<float>(i), 0, 0;
+  const Cloud out = oriented(scan);
+  CHECK(out.dropped == 12);
+  CHECK(out.points.allFinite());
+}
+
+TEST_CASE("estimate_normals copes with any density", "[prepare]") {
+  Cloud coarse;  // 10 mm apart at a resolution of 1.5 mm
+  coarse.points = test::sphere(300, 0.05F);
+  coarse.viewpoint = {0, 0, 10};
+  CHECK(oriented(coarse).dropped == 0);
+  Cloud dense;  // all in one place but for a sphere
+  dense.points = PointMatrix::Constant(200000, 3, 1);
+  dense.points.topRows(14000) = test::sphere(14000, 0.05F);
+  CHECK(oriented(dense).points.rows() == 14000);
+}
+
+TEST_CASE("estimate_normals fails by counts where nothing is left", "[prepare]") {
+  Cloud scan;
+  CHECK_THROWS_WITH(oriented(scan), Contains("none of its 0 points"));
+  scan.points = PointMatrix::Ones(40, 3);
+  CHECK_THROWS_WITH(oriented(scan), Contains("none of its 40 points"));
+  scan.points.setConstant(kNan);
+  CHECK_THROWS_WITH(oriented(scan), Contains("none of its 40 points"));
+  scan = test::box({0, 0, 0}, 1);
+  CHECK_THROWS_WITH(oriented(scan, {{"source", "file"}}), Contains("none of its 8 points"));
+  scan.normals = PointMatrix::Ones(3, 3);
+  CHECK_THROWS_WITH(oriented(scan), Contains("3 normals for 8 points"));
+  scan.normals.resize(0, 3);
+  scan.faces(3, 1) = 8;
+  CHECK_THROWS_WITH(oriented(scan), Contains("refers to point 8 of 8"));
+}
+
+TEST_CASE("estimate_normals on the Bunny with 3 % noise", "[prepare]") {
+  const std::filesystem::path file = test::real_data() / "bunny/bunny.ply";
+  if (!std::filesystem::exists(file)) {
+    WARN("skipped: no " << file);
+    return;
+  }
+  Cloud scan = read_cloud(file, 1);
+  const PointMatrix truth = face_normals(scan.points, wind_outward(scan.points, scan.faces));
+  scan.points = test::shaken(scan.points, 0.0075F);
+  scan.normals = truth;  // carried along to tell which points remain; not used
+  const PointMatrix planes =
+      plane_normals(scan.points, suitable_radius(scan.points, 0.0045F, 6), 5);
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index i = 0; i < truth.rows(); ++i) {
+    if (truth.row(i).isZero() || planes.row(i).isZero()) continue;
+    sum += std::acos(std::min(1.0F, std::abs(truth.row(i).dot(planes.row(i)))));
+    ++count;
+  }
+  CHECK(count > 34000);
+  CHECK(sum / count * 180 / M_PI < 21);  // 56 by the faces
+  scan.normals.resize(0, 3);
+  const Cloud automatic = oriented(scan);
+  CHECK(test::mean_angle(automatic.normals.topRows(100),
+                         oriented(scan, {{"source", "pca"}}).normals.topRows(100)) < 0.1);
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/simulate.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "graph/problem.hpp"
+#include "nodes/load/png_depth.hpp"
+#include "nodes/load/read_cloud.hpp"
+#include "nodes/prepare/grid.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tools/evaluate/ground_truth.hpp"
+#include "tools/simulate/spec.hpp"
+
+using namespace posevote;
+using Catch::Contains;
+using posevote::test::read_text;
+using posevote::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSmall = R"(seed: 4
+models:
+  - {shape: boulder, seed: 1, size: 0.15}
+  - {shape: horn, size: 0.15}
+scenes:
+  - {objects: [1, 2], clutter: 0}
+  - {sensor: rgbd, objects: [2], clutter: 0, elevation: 70}
+)";
+
+std::map<std::string, std::string> all_files(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simulate]") {
+  const TemporaryFolder folder;
+  const std::string spec = folder.write("spec.yaml", kSmall);
+  simulate(spec, folder / "a");
+  simulate(spec, folder / "b");
+  const auto files = all_files(folder / "a");
+  CHECK(files == all_files(folder / "b"));
+  for (const char* name : {"models/obj_000001.ply", "models/obj_000002.ply",
+                           "models/models_info.json", "test/000001/depth/000000.png",
+                           "test/000001/depth/000001.png", "test/000001/scene_camera.json",
+                           "test/000001/scene_gt.json", "test/000001/scene_gt_info.json",
+                           "test_targets_bop19.json", "scans/000000.ply", "scans/000001.ply"})
+    CHECK(files.contains(name));
+  CHECK(files.size() == 11);
+
+  const GroundTruth truth = read_ground_truth(folder / "a", "test");
+  REQUIRE(truth.instances.size() == 3);
+  for (const TrueInstance& instance : truth.instances) {
+    const Cloud scan =
+        read_cloud(folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
+    const PointGrid grid(scan.points, 0.005F);
+    const TrueObject& object = truth.objects.at(instance.obj_id);
+    std::vector<float> distances;
+    for (Eigen::Index i = 0; i < object.points.rows(); i += 3) {
+      const Eigen::Vector3d point =
+          instance.T_scene_model * object.points.row(i).transpose().cast<double>();
+      if (const auto near = grid.nearest(point.cast<float>(), 0.02F))
+        distances.push_back(std::sqrt(near->squared));
+    }
+    REQUIRE(distances.size() > 500);
+    std::sort(distances.begin(), distances.end());
+    // The far side is not in the scan: about half of the model lies on it. The RGB-D image (the
+    // second) is sampled at 1.6 mm, the laser's at 0.8 mm.
+    CHECK(distances[distances.size() / 4] < (instance.im_id == 0 ? 0.001F : 0.0015F));
+    REQUIRE(instance.visible);
+    CHECK(*instance.visible > 0.1);
+  }
+}
+
+TEST_CASE("depth image and PLY scan hold the same points", "[simulate]") {
+  const TemporaryFolder folder;
+  simulate(folder.write("spec.yaml", kSmall), folder / "out");
+  const std::string png = read_text(folder / "out" / "test/000001/depth/000000.png");
+  const DepthImage depth = decode_depth_png(png);
+  CHECK(depth.width == 800);
+  const auto camera =
+      nlohmann::json::parse(read_text(folder / "out" / "test/000001/scene_camera.json"))["0"];
+  const double scale = camera["depth_scale"].get<double>();
+  const auto k = camera["cam_K"].get<std::vector<double>>();
+  const Cloud scan = read_cloud(folder / "out" / "scans/000000.ply", 1);
+  Eigen::Index i = 0;
+  double worst = 0;
+  for (std::size_t pixel = 0; pixel < depth.values.size(); ++pixel) {
+    if (depth.values[pixel] == 0) continue;
+    const double z = depth.values[pixel] * scale * 0.001;
+    const double x = (static_cast<double>(pixel % depth.width) - k[2]) * z / k[0];
+    const double y = (static_cast<double>(pixel / depth.width) - k[5]) * z / k[4];
+    REQUIRE(i < scan.points.rows());
+    worst = std::max(
+        worst,
+        (scan.points.row(i++).cast<double>() - Eigen::RowVector3d(x, y, z)).cwiseAbs().maxCoeff());
+  }
+  CHECK(i == scan.points.rows());
+  CHECK(worst < 1e-6);
+}
+
+TEST_CASE("a folder that holds something is refused", "[simulate]") {
+  const TemporaryFolder folder;
+  const std::string spec = folder.write("spec.yaml", kSmall);
+  folder.write("out/precious.txt", "x");
+  CHECK_THROWS_AS(simulate(spec, folder / "out"), std::invalid_argument);
+  CHECK_THROWS_AS(simulate(spec, spec), std::invalid_argument);
+  CHECK(all_files(folder / "out").size() == 1);
+}
+
+TEST_CASE("all problems of a spec are reported, with their places", "[simulate]") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("spec.yaml", R"(seed: x
+models:
+  - {shape: bolder, size: -1}
+  - {sedd: 1}
+scenes:
+  - {objects: [1, 3], clutter: 1.5, clutter: 2}
+  - {sensor: laser}
+views: 3
+)");
+  try {
+    read_spec(file);
+    FAIL("accepted");
+  } catch (const graph::ConfigError& error) {
+    const std::string text = error.what();
+    CHECK_THAT(text, Contains(file + ":1:7: seed: is 'x', expected int"));
+    CHECK_THAT(text, Contains(file + ":3:13: models[1].shape: is 'bolder'"));
+    CHECK_THAT(text, Contains("did you mean 'boulder'"));
+    CHECK_THAT(text, Contains(file + ":3:27: models[1].size: is '-1'"));
+    CHECK_THAT(text, Contains(file + ":4:6: models[2].sedd: unknown key, did you mean 'seed'?"));
+    CHECK_THAT(text, Contains("models[2].shape: missing"));
+    CHECK_THAT(text, Contains(file + ":6:19: scenes[1].objects: expected the number of a model"));
+    CHECK_THAT(text, Contains("scenes[1].clutter: is '1.5', expected int"));
+    CHECK_THAT(text, Contains("scenes[1].clutter: given twice, first in line 6"));
+    CHECK_THAT(text, Contains("scenes[2].objects: missing"));
+    CHECK_THAT(text, Contains(file + ":8:1: views: unknown key"));
+    CHECK(error.problems().size() == 10);
+  }
+  CHECK_THROWS_WITH(read_spec("/nowhere.yaml"), Contains("/nowhere.yaml: cannot be read"));
+  CHECK_THROWS_AS(read_spec(folder.path().string()), graph::ConfigError);
+  CHECK_THROWS_AS(read_spec(folder.write("a.yaml", "")), graph::ConfigError);
+  CHECK_THROWS_AS(read_spec(folder.write("b.yaml", "models: [")), graph::ConfigError);
+  CHECK_THROWS_AS(read_spec(folder.write("c.yaml", "models: 1\nscenes: {a: 1}")),
+                  graph::ConfigError);
+}
+
+TEST_CASE("the demo's spec is sound", "[simulate]") {
+  const Spec spec = read_spec(std::string(POSEVOTE_SOURCE_DIR) + "/configs/demo_scenes.yaml");
+  CHECK(spec.models.size() == 5);
+  CHECK(spec.scenes.size() == 4);
+}
