@@ -58,14 +58,17 @@ TEST_CASE("a disc is round; tilted, it is narrow and its depth varies", "[write]
 }
 
 TEST_CASE("half the size: each pixel the mean of four", "[write]") {
-  Canvas canvas(4, 4, kWhite);
-  canvas.draw(disc(0, 0, 1, 0), Colour(0, 0, 0));
-  canvas.draw(disc(1, 1, 1, 0), Colour(0, 0, 0));
-  const Picture picture = saved(canvas.halved());
-  CHECK(picture.width == 2);
-  CHECK(picture.height == 2);
-  CHECK(picture.at(0, 0) == Rgb{128, 128, 128});
-  CHECK(picture.at(1, 0) == Rgb{255, 255, 255});
+  for (const float x : {0.0F, 1.0F})
+    for (const float y : {2.0F, 3.0F}) {
+      Canvas canvas(4, 4, kWhite);
+      canvas.draw(disc(x, y, 1, 0), Colour(0, 0, 0));
+      const Picture picture = saved(canvas.halved());
+      CHECK(picture.width == 2);
+      CHECK(picture.height == 2);
+      CHECK(picture.at(0, 1) == Rgb{191, 191, 191});
+      CHECK(picture.at(0, 0) == Rgb{255, 255, 255});
+      CHECK(picture.at(1, 1) == Rgb{255, 255, 255});
+    }
 }
 
 TEST_CASE("letters stand upright, and nothing outside is drawn", "[write]") {
