@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts the trained models together and builds the one index over all their descriptors, so that
 // each scene feature can vote for exactly one object (Buch, Kiforenko, Kraft, ICCV 2017,
-// multi-object recognition). How the index is searched belongs to the library and not to matching: see
-// descriptor_index.hpp.
+// multi-object recognition). How the index is searched belongs to the library and not to matching:
+// see descriptor_index.hpp.
 //
 // The centre c and the diagonal of a model are those of the bounding box of its full mesh, so they
 // do not depend on the sampling.
