@@ -13,6 +13,11 @@
 namespace posevote::graph {
 namespace {
 
+/// "node.param"; the key alone where there is no node.
+std::string dotted(const std::string& subject, const std::string& key) {
+  return subject.empty() ? key : subject + "." + key;
+}
+
 /// One YAML file, its name for messages, and where problems go.
 struct Reader {
   std::string file;
@@ -55,7 +60,7 @@ struct Reader {
       if (is_new)
         visit(key, first->second, entry.second);
       else
-        report(at(entry.first), subject.empty() ? key : subject + "." + key,
+        report(at(entry.first), dotted(subject, key),
                "given twice, first in line " + std::to_string(first->second.line));
     }
   }
