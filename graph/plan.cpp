@@ -13,25 +13,50 @@ std::map<std::string, std::map<std::string, std::string>> effective_parameters(c
   return values;
 }
 
-std::string to_dot(const Plan& plan) {
-  std::string dot = "digraph \"" + plan.name + "\" {\n  rankdir=LR;\n  node [shape=box];\n";
-  const auto edge = [](const std::string& from, const std::string& to, const Stream& stream) {
-    return "  \"" + from + "\" -> \"" + to + "\" [label=\"" + stream.name + "\\n" +
-           stream.type.name + "\"];\n";
-  };
-  for (const PlannedNode& node : plan.nodes)
-    if (node.name != node.spec->name)
-      dot += "  \"" + node.name + "\" [label=\"" + node.name + "\\n(" + node.spec->name + ")\"];\n";
-  for (const Stream& stream : plan.streams) {
-    const std::string from =
-        stream.producer < 0 ? stream.name : plan.nodes[std::size_t(stream.producer)].name;
-    if (stream.producer < 0)
-      dot +=
-          "  \"" + from + "\" [shape=ellipse" + (stream.constant ? ", style=dashed" : "") + "];\n";
-    for (const int consumer : stream.consumers)
-      dot += edge(from, consumer < 0 ? "result" : plan.nodes[std::size_t(consumer)].name, stream);
+namespace {
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+/// Names are unique within a plan only.
+std::string id_of(const Plan& plan, int node) {
+  return quoted(plan.name + "/" + plan.nodes[std::size_t(node)].name);
+}
+
+/// Streams that enter or leave a plan are drawn themselves, those of one name once.
+std::string outer(const Stream& stream) { return quoted(stream.name); }
+
+std::string boxes(const Plan& plan) {
+  std::string dot =
+      "  subgraph " + quoted("cluster_" + plan.name) + " {\n    label=" + quoted(plan.name) + ";\n";
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+    const PlannedNode& node = plan.nodes[i];
+    const std::string type = node.name == node.spec->name ? "" : "\\n(" + node.spec->name + ")";
+    dot +=
+        "    " + id_of(plan, static_cast<int>(i)) + " [label=" + quoted(node.name + type) + "];\n";
   }
-  return dot + "  \"result\" [shape=ellipse];\n}\n";
+  return dot + "  }\n";
+}
+
+std::string edges(const Plan& plan) {
+  std::string dot;
+  for (const Stream& stream : plan.streams) {
+    const std::string from = stream.producer < 0 ? outer(stream) : id_of(plan, stream.producer);
+    const std::string label = " [label=" + quoted(stream.name + "\\n" + stream.type.name) + "];\n";
+    for (const int consumer : stream.consumers)
+      dot += "  " + from + " -> " + (consumer < 0 ? outer(stream) : id_of(plan, consumer)) + label;
+    if (stream.producer < 0 || &stream == &plan.streams[std::size_t(plan.result)])
+      dot += "  " + outer(stream) + " [shape=ellipse];\n";
+  }
+  return dot;
+}
+
+}  // namespace
+
+std::string to_dot(const std::vector<const Plan*>& plans) {
+  std::string dot = "digraph posevote {\n  rankdir=LR;\n  node [shape=box];\n";
+  for (const Plan* plan : plans)
+    if (!plan->nodes.empty()) dot += boxes(*plan) + edges(*plan);
+  return dot + "}\n";
 }
 
 }  // namespace posevote::graph

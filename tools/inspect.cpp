@@ -93,8 +93,7 @@ int nodes_command(const std::string& name) {
 
 int graph_command(const std::string& config, const std::vector<std::string>& set) {
   const Configuration configuration = load_configuration(config, set);
-  if (!configuration.models.nodes.empty()) std::cout << graph::to_dot(configuration.models);
-  std::cout << graph::to_dot(configuration.scenes);
+  std::cout << graph::to_dot({&configuration.models, &configuration.scenes});
   return 0;
 }
 

@@ -37,13 +37,31 @@ Eigen::Matrix3f axes_toward(Eigen::Vector3f forward) {
   return axes;
 }
 
-/// What to show of one axis: all values, but no more than 15 % beyond nearly all of them.
-Eigen::Vector2f range_of(std::vector<float>& values) {
+/// Where points lie in the image plane.
+struct Seen {
+  std::vector<float> x, y;
+};
+
+Seen project(const View& view, const PointMatrix& points) {
+  Seen out;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3f seen = view.in_view(points.row(i));
+    if (!seen.allFinite() || !(seen.z() > kNearest)) continue;
+    out.x.push_back(seen.x() / seen.z());
+    out.y.push_back(seen.y() / seen.z());
+  }
+  return out;
+}
+
+/// What to show of one axis: all values, but no more than 15 % beyond nearly all of them; and all
+/// of `also`.
+Eigen::Vector2f range_of(std::vector<float>& values, const std::vector<float>& also) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   Eigen::Vector2f range(*least, *most);
   const float low = percentile(values, 0.01), high = percentile(values, 0.99);
   const float beyond = 0.15F * (high - low);
   range = {std::max(range[0], low - beyond), std::min(range[1], high + beyond)};
+  for (const float value : also) range = {std::min(range[0], value), std::max(range[1], value)};
   const float margin = std::max(0.03F * (range[1] - range[0]), 1e-6F);
   return {range[0] - margin, range[1] + margin};
 }
@@ -65,7 +83,7 @@ Disc disc_of(const View& view, const Eigen::Vector3f& seen, const Eigen::Vector3
 
 }  // namespace
 
-View view_of(const Cloud& scan, int width) {
+View view_of(const Cloud& scan, const PointMatrix& also, int width) {
   View view;
   view.width = view.height = width;
   view.eye = scan.viewpoint;
@@ -73,15 +91,10 @@ View view_of(const Cloud& scan, int width) {
   if (scan.points.rows() == 0) return view;
   const Eigen::Vector3f mean = scan.points.colwise().mean();
   view.axes = axes_toward(mean - view.eye);
-  std::vector<float> x, y;
-  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
-    const Eigen::Vector3f seen = view.in_view(scan.points.row(i));
-    if (!seen.allFinite() || !(seen.z() > kNearest)) continue;
-    x.push_back(seen.x() / seen.z());
-    y.push_back(seen.y() / seen.z());
-  }
-  if (x.empty()) return view;
-  const Eigen::Vector2f across = range_of(x), along = range_of(y);
+  Seen seen = project(view, scan.points);
+  if (seen.x.empty()) return view;
+  const Seen more = project(view, also);
+  const Eigen::Vector2f across = range_of(seen.x, more.x), along = range_of(seen.y, more.y);
   view.center = {across.mean(), along.mean()};
   // A very slender scan leaves room at its sides.
   const float wide = across[1] - across[0], high = along[1] - along[0];
@@ -110,8 +123,8 @@ float spacing_of(const PointMatrix& points, float resolution) {
   return distances.empty() ? expected : percentile(distances, 0.75);
 }
 
-Painter::Painter(const Cloud& scan, int width, float resolution)
-    : view_(view_of(scan, kFiner * width)),
+Painter::Painter(const Cloud& scan, const PointMatrix& also, int width, float resolution)
+    : view_(view_of(scan, also, kFiner * width)),
       canvas_(view_.width, view_.height, {0.98F, 0.98F, 0.98F}),
       resolution_(resolution) {}
 

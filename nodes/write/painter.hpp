@@ -28,8 +28,9 @@ struct View {
   }
 };
 
-/// From the scan's sensor toward the middle of the scan, all of it in the picture but outliers.
-View view_of(const Cloud& scan, int width);
+/// From the scan's sensor toward the middle of the scan: all of it but outliers in the picture, and
+/// all of `also` (points in the scan's frame).
+View view_of(const Cloud& scan, const PointMatrix& also, int width);
 
 /// Distance between neighbouring points: of a sample of the points, the upper quartile of the
 /// distance to the fourth neighbour [m]. `resolution`: about what to expect.
@@ -37,8 +38,8 @@ float spacing_of(const PointMatrix& points, float resolution);
 
 class Painter {
  public:
-  /// Frames the scan. The picture is drawn at twice its size, then halved.
-  Painter(const Cloud& scan, int width, float resolution);
+  /// Frames the scan and the points `also`. The picture is drawn at twice its size, then halved.
+  Painter(const Cloud& scan, const PointMatrix& also, int width, float resolution);
 
   /// Draws each point that faces the sensor as a disc large enough to close the surface. `nearer`
   /// [m] lets the cloud win over what lies at the same place.

@@ -23,11 +23,26 @@ struct Params {
   int every = 1;
 };
 
+/// The points of all found models, in the scan's frame.
+PointMatrix found_points(const Detections& detections, const ModelLibrary& library) {
+  PointMatrix all(0, 3);
+  for (const Detection& found : detections.items) {
+    const Model* model = find_model(library, found.obj_id);
+    if (!model) continue;
+    const Eigen::Isometry3f T_scene_model = found.T_scene_model.cast<float>();
+    all.conservativeResize(all.rows() + model->cloud.points.rows(), 3);
+    all.bottomRows(model->cloud.points.rows()) =
+        (model->cloud.points * T_scene_model.linear().transpose()).rowwise() +
+        T_scene_model.translation().transpose();
+  }
+  return all;
+}
+
 void write_picture(const Cloud& scan, const Detections& detections, const ModelLibrary& library,
                    const graph::FrameContext& context, const Params& params) {
   if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
   if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
-  Painter painter(scan, params.width, library.scale.resolution);
+  Painter painter(scan, found_points(detections, library), params.width, library.scale.resolution);
   painter.draw(scan, Eigen::Isometry3f::Identity(), {0.72F, 0.72F, 0.70F}, 0);
   for (std::size_t i = 0; i < detections.items.size(); ++i) {
     const Detection& found = detections.items[i];

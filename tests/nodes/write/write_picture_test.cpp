@@ -77,7 +77,7 @@ TEST_CASE("the picture is upright for cameras that look along +z and along -z", 
   for (const float look : {1.0F, -1.0F}) {
     Cloud scan = wall();
     scan.points.rightCols(2) *= look;  // y down and z forward; or y up and z back
-    const View view = view_of(scan, 100);
+    const View view = view_of(scan, {}, 100);
     const Eigen::Vector3f up_right(0.1F, -0.1F * look, look);
     const Eigen::Vector2f at = view.in_picture(view.in_view(up_right));
     CHECK(at.x() > 60);
@@ -87,14 +87,24 @@ TEST_CASE("the picture is upright for cameras that look along +z and along -z", 
   }
 }
 
+TEST_CASE("what reaches beyond the scan is in the picture, too", "[write]") {
+  const Cloud scan = wall();
+  PointMatrix also(1, 3);
+  also << 2, 0, 1;
+  const View view = view_of(scan, also, 100);
+  const Eigen::Vector2f at = view.in_picture(view.in_view(also.row(0)));
+  CHECK(at.x() > 90);
+  CHECK(at.x() < 100);
+}
+
 TEST_CASE("outliers do not shrink the scan, nor is a slender one cut", "[write]") {
   Cloud scan = wall();
-  const float scale = view_of(scan, 100).scale;
+  const float scale = view_of(scan, {}, 100).scale;
   scan.points.row(0) << 50, 3, 1;
-  CHECK(view_of(scan, 100).scale > 0.75F * scale);
+  CHECK(view_of(scan, {}, 100).scale > 0.75F * scale);
   Cloud tall = make_patch(101, 0.004F, 1);
   tall.points.col(0) *= 0.1F;
-  const View view = view_of(tall, 100);
+  const View view = view_of(tall, {}, 100);
   CHECK(view.height == 150);
   for (const Eigen::Index corner : {Eigen::Index{0}, tall.points.rows() - 1}) {
     const Eigen::Vector2f at = view.in_picture(view.in_view(tall.points.row(corner)));
@@ -133,7 +143,7 @@ TEST_CASE("discs lie in the surface: what is just in front of a slope is seen", 
   const TemporaryFolder folder;
   for (const float steep : {-1.0F, 1.0F}) {
     const Cloud coarse = slope(11, 0.04F, 1, steep);
-    Painter painter(coarse, 300, 0.04F);
+    Painter painter(coarse, {}, 300, 0.04F);
     painter.draw(coarse, Eigen::Isometry3f::Identity(), Colour(0, 1, 0), 0);
     painter.draw(slope(101, 0.003F, 0.998F, steep), Eigen::Isometry3f::Identity(), Colour(1, 0, 0),
                  0);
