@@ -45,7 +45,8 @@ TEST_CASE("every config and pipeline of the project passes check", "[style]") {
 TEST_CASE("every node has a file comment with an example, and a test", "[style]") {
   for (const graph::NodeSpec* spec : graph::all_nodes()) {
     INFO(spec->name);
-    const fs::path source = kSource / fs::relative(spec->source, kSource);
+    // The compiler may have been told of the file by a path relative to its own folder.
+    const fs::path source = kSource / spec->source.substr(spec->source.rfind("nodes/"));
     CHECK(test::read_text(source).find(spec->name + ": {") != std::string::npos);
     bool tested = false;
     for (const fs::path& file : files_in("tests", {".cpp", ".hpp"}))
