@@ -43,7 +43,9 @@ std::string edges(const Plan& plan) {
     const std::string from = stream.producer < 0 ? outer(stream) : id_of(plan, stream.producer);
     const std::string label = " [label=" + quoted(stream.name + "\\n" + stream.type.name) + "];\n";
     for (const int consumer : stream.consumers)
-      dot += "  " + from + " -> " + (consumer < 0 ? outer(stream) : id_of(plan, consumer)) + label;
+      dot.append("  " + from + " -> ")
+          .append(consumer < 0 ? outer(stream) : id_of(plan, consumer))
+          .append(label);
     if (stream.producer < 0 || &stream == &plan.streams[std::size_t(plan.result)])
       dot += "  " + outer(stream) + " [shape=ellipse];\n";
   }
