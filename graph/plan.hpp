@@ -53,8 +53,8 @@ Plan make_plan(const PipelineDescription& description,
 /// "describe_scene.radius" -> value, for every parameter of every node that has its own.
 std::map<std::string, std::map<std::string, std::string>> effective_parameters(const Plan& plan);
 
-/// The wiring of plans in one drawing (Graphviz DOT): a box each, joined where the result of one is a
-/// constant of another. Plans without nodes are left out.
+/// The wiring of plans in one drawing (Graphviz DOT): a box each, joined where the result of one is
+/// a constant of another. Plans without nodes are left out.
 std::string to_dot(const std::vector<const Plan*>& plans);
 
 }  // namespace posevote::graph
