@@ -232,13 +232,11 @@ class Planner {
 
   void report_cycle(const std::vector<bool>& placed) {
     std::string members;
-    const PlannedNode* first = nullptr;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      if (placed[i]) continue;
-      if (!first) first = &plan_.nodes[i];
-      members += (members.empty() ? "" : ", ") + plan_.nodes[i].name;
-    }
-    report(first->where, first->name, "waits for itself: a cycle through or before " + members);
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      if (!placed[i]) members += (members.empty() ? "" : ", ") + plan_.nodes[i].name;
+    const auto first = std::find(placed.begin(), placed.end(), false) - placed.begin();
+    const PlannedNode& node = plan_.nodes[static_cast<std::size_t>(first)];
+    report(node.where, node.name, "waits for itself: a cycle through or before " + members);
   }
 
   void reorder(const std::vector<int>& order) {

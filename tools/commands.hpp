@@ -15,7 +15,7 @@ namespace posevote {
 
 /// Options of `run`, named as on the command line.
 struct RunCommand {
-  std::string config;
+  std::string config, pipeline;
   std::vector<std::string> models, scenes, set;
   std::string dataset, split = "test";
   std::string out = "out";

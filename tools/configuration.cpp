@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 
 #include "graph/yaml_reader.hpp"
 
@@ -80,7 +81,8 @@ void emit_parameters(YAML::Emitter& out, const graph::Plan& plan) {
 }  // namespace
 
 Configuration load_configuration(const std::string& config, const std::vector<std::string>& sets,
-                                 const std::vector<Override>& defaults) {
+                                 const std::vector<Override>& defaults,
+                                 const std::string& pipeline) {
   std::vector<Problem> problems;
   const std::string file = find_config(config);
   Configuration result;
@@ -88,9 +90,16 @@ Configuration load_configuration(const std::string& config, const std::vector<st
   PipelineDescription scenes;
   std::vector<Override> overrides = defaults;
   if (graph::is_pipeline(file)) {
+    if (!pipeline.empty())
+      throw std::invalid_argument("--pipeline " + pipeline + ": " + file +
+                                  " is a pipeline itself, expected a config");
     scenes = graph::read_pipeline(file, problems);
   } else {
-    const graph::ConfigDescription description = graph::read_config(file, problems);
+    graph::ConfigDescription description = graph::read_config(file, problems);
+    if (!pipeline.empty()) {
+      description.pipeline = pipeline;
+      description.where = {"--pipeline", 0, 0};
+    }
     if (!description.pipeline.empty())
       scenes = read_named(description.pipeline, description.where, file, problems);
     overrides.insert(overrides.end(), description.overrides.begin(), description.overrides.end());

@@ -18,9 +18,11 @@ struct Configuration {
 
 /// Reads a config (a path, or the name of one in configs/) or a pipeline, applies `sets`
 /// ("node.param=value") over it and checks everything. `defaults` are overrides that yield to both.
-/// Throws graph::ConfigError with every problem at once.
+/// `pipeline`, unless empty, takes the place of the one that the config names. Throws
+/// graph::ConfigError with every problem at once.
 Configuration load_configuration(const std::string& config, const std::vector<std::string>& sets,
-                                 const std::vector<graph::Override>& defaults = {});
+                                 const std::vector<graph::Override>& defaults = {},
+                                 const std::string& pipeline = "");
 
 /// The run's parameters as a config that reproduces it.
 std::string effective_yaml(const Configuration& configuration);

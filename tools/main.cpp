@@ -12,6 +12,7 @@
 
 #include "graph/problem.hpp"
 #include "tools/commands.hpp"
+#include "tools/experiment/experiment.hpp"
 
 namespace {
 
@@ -59,6 +60,10 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_option("--out", run.out, "Folder for the results")->capture_default_str();
   command->add_option("--library", run.library, "A library from `posevote train`, not --models")
       ->type_name("FILE");
+  command
+      ->add_option("--pipeline", run.pipeline,
+                   "Other wiring than the config's, from pipelines/ (ransac, hough3d ...)")
+      ->type_name("NAME");
   add_set(command, run.set);
   command->add_option("--threads", run.threads, "Threads; 0: all cores")->capture_default_str();
   command->add_option("--tokens", run.tokens, "Frames in flight; 0: 2 x threads")
@@ -81,6 +86,7 @@ struct Options {
   TrainCommand train;
   SimulateCommand simulate;
   EvaluateCommand evaluate;
+  ExperimentCommand experiment;
   std::string config, node, docs_file;
   std::vector<std::string> set;
 };
@@ -114,6 +120,26 @@ void add_evaluate(CLI::App& app, EvaluateCommand& evaluate) {
   command->add_option("--split", evaluate.split, "Split of the data set")->capture_default_str();
 }
 
+void add_experiment(CLI::App& app, ExperimentCommand& experiment) {
+  CLI::App* command = app.add_subcommand("experiment", "Repeat one of the paper's experiments");
+  command->footer(
+      "Example:\n  posevote experiment sensitivity --dataset bunny.ply\n\n"
+      "Runs our method and its rivals on one data set and prints the paper's table with ours "
+      "beside\nit; CSV and plots go to --out. A run that was stopped goes on where it was.");
+  command->add_option("name", experiment.name, "sensitivity, uwa, queens, icbin or icmi")
+      ->required()
+      ->check(CLI::IsMember({"sensitivity", "uwa", "queens", "icbin", "icmi"}));
+  command
+      ->add_option("--dataset", experiment.dataset,
+                   "The real data (sensitivity: a mesh in m); default: a replica is made")
+      ->type_name("PATH");
+  command->add_option("--out", experiment.out, "Folder for everything; default out/NAME")
+      ->type_name("DIR");
+  command->add_option("--methods", experiment.methods, "Only these, e.g. posevote ransac")
+      ->type_name("NAME");
+  command->add_flag("--quick", experiment.quick, "A small part of it, to see that it works");
+}
+
 void add_inspection(CLI::App& app, Options& options) {
   CLI::App* check = app.add_subcommand("check", "Report every problem of a config at once");
   CLI::App* graph = app.add_subcommand("graph", "Print the wiring as Graphviz DOT");
@@ -134,6 +160,8 @@ int dispatch(const CLI::App& app, const Options& options) {
     return with_threads(0, [&] { return train_command(options.train); });
   if (app.got_subcommand("simulate"))
     return with_threads(0, [&] { return simulate_command(options.simulate); });
+  if (app.got_subcommand("experiment"))
+    return with_threads(0, [&] { return experiment_command(options.experiment, interrupted); });
   if (app.got_subcommand("evaluate")) return evaluate_command(options.evaluate);
   if (app.got_subcommand("check")) return check_command(options.config, options.set);
   if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
@@ -155,6 +183,7 @@ int main(int argc, char** argv) {
   add_train(app, options.train);
   add_simulate(app, options.simulate);
   add_evaluate(app, options.evaluate);
+  add_experiment(app, options.experiment);
   add_inspection(app, options);
   try {
     app.parse(argc, argv);

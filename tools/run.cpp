@@ -182,7 +182,7 @@ int exit_status(const graph::RunSummary& summary, bool interrupted) {
 
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
   const Configuration configuration =
-      load_configuration(command.config, command.set, dataset_defaults(command));
+      load_configuration(command.config, command.set, dataset_defaults(command), command.pipeline);
   std::vector<SceneEntry> scenes = take_shard(find_scenes(command), command.shard);
   if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
   const auto library = find_library(command, configuration);

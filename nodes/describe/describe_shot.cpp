@@ -44,7 +44,7 @@ Frames::Ptr local_frames(const PclSurface& surface, const Tree::Ptr& tree,
   estimation.setIndices(rows);
   estimation.setSearchMethod(tree);
   estimation.setRadiusSearch(radius);
-  const Frames::Ptr frames(new Frames);
+  Frames::Ptr frames(new Frames);
   estimation.compute(*frames);
   return frames;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Greedy segmentation of a scan into objects (Buch, Kiforenko, Kraft, ICCV 2017, section 4):
 // objects in descending number of correspondences; for each the mode of the vote density that
-// agrees best with the scan, refined by ICP (choose_candidate.hpp), and the scan points it explains
+// agrees best with the scan, refined by ICP (find_instances.hpp), and the scan points it explains
 // taken out before the next is sought. Correspondences that start at explained points are taken out
 // of all objects; their votes are subtracted from the densities, which equals voting anew without
 // them. The score rests on what the sensor measured, free space included (measure_fit.cpp). Cost:
-// per instance up to `candidates` neighbourhood queries and glances, five ICPs, one subtraction. A
+// per object `candidates` glances, 100 neighbourhood queries and looks, per instance five ICPs. A
 // scan without votes gives no detections; that is no failure. Points without a normal are never
 // matched. Known limits: an object of which one flat side alone is seen scores low; of two objects
 // that claim the same points the one with more correspondences gets them.
@@ -20,7 +20,7 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
-#include "nodes/segment/choose_candidate.hpp"
+#include "nodes/segment/find_instances.hpp"
 #include "nodes/segment/find_modes.hpp"
 #include "nodes/segment/live_votes.hpp"
 #include "nodes/segment/refine_mode.hpp"
@@ -33,7 +33,7 @@ constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_d
 
 struct Params {
   int max_instances = 1;
-  int candidates = 100;
+  int candidates = 1000;
   double nms = 0.2;
   double min_density = 3;
   double min_score = 0.2;
@@ -44,15 +44,17 @@ struct Params {
   double explained_distance = 3;
 };
 
-CandidateParams candidate_params(const Params& params, const Model& model, float resolution) {
-  CandidateParams out;
-  out.candidates = params.candidates;
-  out.min_density = params.min_density;
+InstanceParams instance_params(const Params& params, const Model& model, float resolution) {
+  const auto length = [&](double multiple) { return static_cast<float>(multiple) * resolution; };
+  InstanceParams out;
+  out.max_instances = params.max_instances;
+  out.min_score = params.min_score;
   out.nms_radius = static_cast<float>(params.nms) * model.diagonal;
   out.refine = params.refine;
   out.icp_iterations = params.icp_iterations;
-  out.icp_distance = static_cast<float>(params.icp_distance) * resolution;
-  out.tolerance = static_cast<float>(params.inlier_distance) * resolution;
+  out.icp_distance = length(params.icp_distance);
+  out.tolerance = length(params.inlier_distance);
+  out.explained_distance = length(params.explained_distance);
   return out;
 }
 
@@ -84,20 +86,21 @@ Detection make_detection(const LiveVotes& object, const Candidate& candidate) {
 }
 
 /// All instances of one object.
-void find_instances(LiveVotes& object, ScanState& scan, const Params& params, Detections& found) {
+void segment_object(LiveVotes object, ScanState& scan, const Params& params, Detections& found) {
   const Model& model = *object.votes->model;
-  const CandidateParams how = candidate_params(params, model, scan.resolution);
-  std::vector<Eigen::Vector3f> taken;
-  for (int instance = 0; instance < params.max_instances; ++instance) {
-    remove_explained(object, scan.feature_explained);
-    const std::optional<Candidate> chosen = choose_candidate(object, scan, taken, how);
-    if (!chosen || chosen->score < params.min_score) return;
-    found.items.push_back(make_detection(object, *chosen));
-    taken.push_back(chosen->mode.center);
-    taken.push_back((chosen->T_scene_model * model.center.cast<double>()).cast<float>());
-    scan.take_out(model, chosen->T_scene_model,
-                  static_cast<float>(params.explained_distance) * scan.resolution);
-  }
+  const InstanceParams how = instance_params(params, model, scan.resolution);
+  const Proposals proposals{
+      [&](const ScanState& now, const std::vector<Eigen::Vector3f>& taken) {
+        remove_explained(object, now.feature_explained);
+        return separate_modes(*object.votes,
+                              best_votes(*object.votes, object.density, params.min_density), taken,
+                              how.nms_radius, static_cast<std::size_t>(params.candidates));
+      },
+      [&](const PoseMode& mode) {
+        return refine_mode(*object.votes, *object.raw, object.alive, mode);
+      }};
+  for (const Candidate& candidate : find_instances(model, proposals, how, scan))
+    found.items.push_back(make_detection(object, candidate));
 }
 
 /// A point set without a normal for each point is refused; a normal of length 0 is not.
@@ -126,10 +129,8 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
   check_inputs(votes, densities, scene_features, scene_cloud, scale);
   ScanState scan(scene_cloud, scene_features, scale.resolution);
   Detections found;
-  for (const std::size_t i : order_objects(votes)) {
-    LiveVotes object = all_votes(votes[i], densities[i]);
-    find_instances(object, scan, params, found);
-  }
+  for (const std::size_t i : order_objects(votes))
+    segment_object(all_votes(votes[i], densities[i]), scan, params, found);
   return found;
 }
 

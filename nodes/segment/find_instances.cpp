@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/find_instances.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "graph/parallel.hpp"
+#include "nodes/segment/icp.hpp"
+#include "nodes/segment/refine_mode.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr std::size_t kShortlist = 100;  // judged by kLook model points
+constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
+constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
+constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
+constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
+
+using Candidates = std::vector<Candidate>;
+
+void sort_by_score(Candidates::iterator begin, Candidates::iterator end) {
+  std::stable_sort(begin, end,
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+/// One object in one scan, and what of it was found.
+class Search {
+ public:
+  Search(const Model& model, const Proposals& proposals, const InstanceParams& params,
+         ScanState& scan)
+      : model_(model), proposals_(proposals), params_(params), scan_(scan) {}
+
+  Candidates run() {
+    Candidates found;
+    bool fresh = false;  // whether the pool was filled since the last find
+    while (found.size() < static_cast<std::size_t>(params_.max_instances)) {
+      if (pool_.empty()) {
+        fill_pool();
+        fresh = true;
+      }
+      const std::optional<Candidate> best = choose();
+      if (!best || best->score < params_.min_score) {
+        if (fresh) break;
+        pool_.clear();  // what was found may have uncovered other modes
+        continue;
+      }
+      found.push_back(*best);
+      take(*best);
+      fresh = false;
+    }
+    return found;
+  }
+
+ private:
+  /// The short list of what is proposed, the best first.
+  void fill_pool() {
+    for (const PoseMode& mode : proposals_.propose(scan_, taken_)) pool_.emplace_back().mode = mode;
+    if (pool_.size() > kShortlist) {
+      judge(0, pool_.size(), kGlance);
+      pool_.resize(kShortlist);
+    }
+    graph::parallel_for(pool_.size(), 1, [this](std::size_t i) {
+      pool_[i].mode = proposals_.improve(pool_[i].mode);
+    });
+    judge(0, pool_.size(), kLook);
+    judged_ = true;
+  }
+
+  /// Scores part of the pool by some model points and sorts all up to its end.
+  void judge(std::size_t begin, std::size_t end, Eigen::Index samples) {
+    graph::parallel_for(end - begin, 1, [&](std::size_t i) {
+      Candidate& candidate = pool_[begin + i];
+      candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
+      candidate.fit = measure(candidate.T_scene_model, samples);
+      candidate.score = fit_score(candidate.fit);
+    });
+    sort_by_score(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
+  /// Brings the finalists to the front. Scores of before the last find are taken as upper bounds,
+  /// because points that were taken out support nothing any more.
+  void judge_again() {
+    constexpr std::size_t kBatch = 2 * kFinalists;
+    for (std::size_t done = 0; done < pool_.size();) {
+      const std::size_t end = std::min(done + kBatch, pool_.size());
+      judge(done, end, kLook);
+      done = end;
+      if (done < pool_.size() && pool_[kFinalists - 1].score >= pool_[done].score) break;
+    }
+    std::erase_if(pool_, [](const Candidate& candidate) { return candidate.score == 0; });
+    judged_ = true;
+  }
+
+  /// The best of the finalists after ICP. Those that ICP carries onto an instance that is found
+  /// already leave the pool.
+  std::optional<Candidate> choose() {
+    if (!judged_) judge_again();
+    while (!pool_.empty()) {
+      const std::size_t count = std::min(kFinalists, pool_.size());
+      Candidates finalists(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
+      graph::parallel_for(count, 1, [&](std::size_t i) { refine(finalists[i]); });
+      sort_by_score(finalists.begin(), finalists.end());
+      for (const Candidate& candidate : finalists)
+        if (is_clear(center_of(candidate))) return candidate;
+      pool_.erase(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    return std::nullopt;
+  }
+
+  /// ICP, kept where it keeps the support that the mode had.
+  void refine(Candidate& candidate) const {
+    candidate.fit = measure(candidate.T_scene_model, 0);
+    if (params_.refine) {
+      const Eigen::Isometry3d T_refined =
+          icp(model_.cloud, scan_.surface, candidate.T_scene_model,
+              {params_.icp_iterations, params_.icp_distance, params_.tolerance});
+      const Fit refined = measure(T_refined, 0);
+      const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
+      if (static_cast<double>(refined.supported) >= fewest) {
+        candidate.T_scene_model = T_refined;
+        candidate.fit = refined;
+      }
+    }
+    candidate.score = fit_score(candidate.fit);
+  }
+
+  void take(const Candidate& found) {
+    taken_.push_back(found.mode.center);
+    taken_.push_back(center_of(found));
+    scan_.take_out(model_, found.T_scene_model, params_.explained_distance);
+    std::erase_if(pool_, [this](const Candidate& other) { return !is_clear(other.mode.center); });
+    judged_ = false;
+  }
+
+  Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const {
+    return measure_fit(model_.cloud, scan_.surface, scan_.view, T_scene_model, params_.tolerance,
+                       samples);
+  }
+  Eigen::Vector3f center_of(const Candidate& candidate) const {
+    return (candidate.T_scene_model * model_.center.cast<double>()).cast<float>();
+  }
+  bool is_clear(const Eigen::Vector3f& center) const {
+    return std::all_of(taken_.begin(), taken_.end(), [&](const Eigen::Vector3f& other) {
+      return (center - other).norm() > params_.nms_radius;
+    });
+  }
+
+  const Model& model_;
+  const Proposals& proposals_;
+  const InstanceParams& params_;
+  ScanState& scan_;
+  Candidates pool_;      ///< the best first, as far as they were judged
+  bool judged_ = false;  ///< whether the first of the pool were judged since the last find
+  std::vector<Eigen::Vector3f> taken_;  ///< centres of what was found
+};
+
+}  // namespace
+
+std::vector<Candidate> find_instances(const Model& model, const Proposals& proposals,
+                                      const InstanceParams& params, ScanState& scan) {
+  return Search(model, proposals, params, scan).run();
+}
+
+}  // namespace posevote

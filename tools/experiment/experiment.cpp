@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/experiment/experiment.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace posevote {
+namespace {
+
+const std::vector<Method> kMethods = {{"posevote", "recognize"}};
+
+}  // namespace
+
+std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return kMethods;
+  std::vector<Method> methods;
+  for (const std::string& name : wanted) {
+    const auto found = std::find_if(kMethods.begin(), kMethods.end(),
+                                    [&](const Method& method) { return method.name == name; });
+    if (found == kMethods.end()) {
+      std::string known;
+      for (const Method& method : kMethods) known += (known.empty() ? "" : ", ") + method.name;
+      throw std::invalid_argument("--methods " + name + ": no such method, expected " + known);
+    }
+    methods.push_back(*found);
+  }
+  return methods;
+}
+
+int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted) {
+  const std::filesystem::path out = command.out.empty() ? "out/" + command.name : command.out;
+  return command.name == "sensitivity" ? sensitivity_experiment(command, out, interrupted)
+                                       : recognition_experiment(command, out, interrupted);
+}
+
+}  // namespace posevote

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The paper's five experiments, each as one command.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace posevote {
+
+/// Options of `experiment`, named as on the command line.
+struct ExperimentCommand {
+  std::string name;
+  std::string dataset;               ///< the real set; empty: a replica is made
+  std::string out;                   ///< empty: out/NAME
+  std::vector<std::string> methods;  ///< empty: all
+  bool quick = false;
+};
+
+/// A way from correspondences to poses: the wiring that stands for it.
+struct Method {
+  std::string name;      ///< in tables and folders
+  std::string pipeline;  ///< in pipelines/
+};
+
+/// Ours first, then the rivals that this build has. Throws std::invalid_argument for a name in
+/// `wanted` that there is not.
+std::vector<Method> find_methods(const std::vector<std::string>& wanted);
+
+int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted);
+
+/// A model onto noisy copies of itself (paper, section 5.1).
+int sensitivity_experiment(const ExperimentCommand& command, const std::filesystem::path& out,
+                           const std::atomic<bool>& interrupted);
+/// A data set with true poses (paper, sections 5.2 to 5.5).
+int recognition_experiment(const ExperimentCommand& command, const std::filesystem::path& out,
+                           const std::atomic<bool>& interrupted);
+
+}  // namespace posevote
