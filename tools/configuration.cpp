@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 
 #include "graph/yaml_reader.hpp"
@@ -134,15 +135,15 @@ std::string effective_yaml(const Configuration& configuration) {
 }
 
 std::string training_parameters(const graph::Plan& models) {
-  std::string text;
+  std::ostringstream text;
   for (const graph::PlannedNode& node : models.nodes) {
-    text += node.name + "=" + node.spec->name + "(";
-    for (const int input : node.inputs) text += models.streams[std::size_t(input)].name + " ";
-    text += ")\n";
+    text << node.name << '=' << node.spec->name << '(';
+    for (const int input : node.inputs) text << models.streams[std::size_t(input)].name << ' ';
+    text << ")\n";
   }
   for (const auto& [node, values] : graph::effective_parameters(models))
-    for (const auto& [key, value] : values) text += node + "." + key + "=" + value + "\n";
-  return text;
+    for (const auto& [key, value] : values) text << node << '.' << key << '=' << value << '\n';
+  return text.str();
 }
 
 }  // namespace posevote

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "graph/problem.hpp"
+#include "tools/bench/bench.hpp"
 #include "tools/commands.hpp"
 #include "tools/experiment/experiment.hpp"
 
@@ -87,6 +88,7 @@ struct Options {
   SimulateCommand simulate;
   EvaluateCommand evaluate;
   ExperimentCommand experiment;
+  BenchCommand bench;
   std::string config, node, docs_file;
   std::vector<std::string> set;
 };
@@ -140,6 +142,28 @@ void add_experiment(CLI::App& app, ExperimentCommand& experiment) {
   command->add_flag("--quick", experiment.quick, "A small part of it, to see that it works");
 }
 
+void add_bench(CLI::App& app, BenchCommand& bench) {
+  CLI::App* command = app.add_subcommand("bench", "Time every stage, and rivals in the same run");
+  command->footer(
+      "Examples:\n  posevote bench uwa --models models/*.ply --scenes rs1.ply --out new.json\n"
+      "  posevote bench --compare old.json new.json");
+  command->add_option("config", bench.config, "A file, or a name from configs/")
+      ->capture_default_str();
+  command->add_option("--models", bench.models, "Model files, folders or globs")->type_name("FILE");
+  command->add_option("--scenes", bench.scenes, "Scan files, folders or globs")->type_name("FILE");
+  command->add_option("--methods", bench.methods, "Only these, e.g. posevote ransac")
+      ->type_name("NAME");
+  add_set(command, bench.set);
+  command->add_option("--repeat", bench.repeat, "Turns; the figures are medians")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--threads", bench.threads, "Threads; 0: all cores")->capture_default_str();
+  command->add_option("--out", bench.out, "Also write the figures as JSON")->type_name("FILE");
+  command->add_option("--compare", bench.compare, "Run nothing; compare two files of --out")
+      ->expected(2)
+      ->type_name("OLD NEW");
+}
+
 void add_inspection(CLI::App& app, Options& options) {
   CLI::App* check = app.add_subcommand("check", "Report every problem of a config at once");
   CLI::App* graph = app.add_subcommand("graph", "Print the wiring as Graphviz DOT");
@@ -162,6 +186,8 @@ int dispatch(const CLI::App& app, const Options& options) {
     return with_threads(0, [&] { return simulate_command(options.simulate); });
   if (app.got_subcommand("experiment"))
     return with_threads(0, [&] { return experiment_command(options.experiment, interrupted); });
+  if (app.got_subcommand("bench"))
+    return with_threads(options.bench.threads, [&] { return bench_command(options.bench); });
   if (app.got_subcommand("evaluate")) return evaluate_command(options.evaluate);
   if (app.got_subcommand("check")) return check_command(options.config, options.set);
   if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
@@ -184,6 +210,7 @@ int main(int argc, char** argv) {
   add_simulate(app, options.simulate);
   add_evaluate(app, options.evaluate);
   add_experiment(app, options.experiment);
+  add_bench(app, options.bench);
   add_inspection(app, options);
   try {
     app.parse(argc, argv);

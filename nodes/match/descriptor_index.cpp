@@ -135,6 +135,7 @@ bool DescriptorIndex::reproducible() const { return data_->options.search != "ap
 std::shared_ptr<const DescriptorIndex> index_of(
     const std::vector<std::shared_ptr<const Model>>& models, const IndexOptions& options) {
   std::vector<const DescriptorMatrix*> blocks;
+  blocks.reserve(models.size());
   for (const auto& model : models) blocks.push_back(&model->features.descriptors);
   return std::make_shared<const DescriptorIndex>(blocks, options);
 }

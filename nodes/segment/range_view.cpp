@@ -23,6 +23,7 @@ Eigen::Vector3f project(const Eigen::Vector3f& in_image_frame) {
 
 float median_range(const std::vector<Eigen::Vector3f>& image_points) {
   std::vector<float> ranges;
+  ranges.reserve(image_points.size());
   for (const Eigen::Vector3f& p : image_points) ranges.push_back(p.z());
   const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
   std::nth_element(ranges.begin(), middle, ranges.end());
@@ -87,7 +88,7 @@ void RangeView::splat(const Eigen::Vector3f& image_point, float half_width) {
   const int v = static_cast<int>((image_point.y() - origin_.y()) / cell_);
   for (int y = std::max(0, v - reach); y <= std::min(height_ - 1, v + reach); ++y)
     for (int x = std::max(0, u - reach); x <= std::min(width_ - 1, u + reach); ++x) {
-      float& range = range_[static_cast<std::size_t>(y * width_ + x)];
+      float& range = range_[cell_at(x, y)];
       if (range == 0 || image_point.z() < range) range = image_point.z();
     }
 }
@@ -100,8 +101,7 @@ float RangeView::measured_range(const Eigen::Vector3f& point) const {
   if (!(cell.minCoeff() >= 0) || !(cell.x() < static_cast<float>(width_)) ||
       !(cell.y() < static_cast<float>(height_)))
     return 0;
-  return range_[static_cast<std::size_t>(static_cast<int>(cell.y()) * width_ +
-                                         static_cast<int>(cell.x()))];
+  return range_[cell_at(static_cast<int>(cell.x()), static_cast<int>(cell.y()))];
 }
 
 }  // namespace posevote

@@ -39,6 +39,11 @@ class RangeView {
   Eigen::Vector3f viewpoint_ = Eigen::Vector3f::Zero();
   Eigen::Matrix3f R_image_scan_ = Eigen::Matrix3f::Identity();  // image plane at unit distance on z
   Eigen::Vector2f origin_ = Eigen::Vector2f::Zero();
+  std::size_t cell_at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
   float cell_ = 0;
   int width_ = 0, height_ = 0;
   std::vector<float> range_;

@@ -17,8 +17,8 @@ Real warp(Real u) {
 
 template <class Real>
 std::uint32_t level(Real v) {
-  return static_cast<std::uint32_t>(
-      std::clamp(static_cast<int>((v + 1) * (kLevels / 2)), 0, kLevels - 1));
+  constexpr Real kHalf = static_cast<Real>(kLevels) / 2;
+  return static_cast<std::uint32_t>(std::clamp(static_cast<int>((v + 1) * kHalf), 0, kLevels - 1));
 }
 
 /// The ball of quaternions around p, as chart k sees it (see rotation_boxes).

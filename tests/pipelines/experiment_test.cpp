@@ -32,7 +32,28 @@ TEST_CASE("experiment refuses what it cannot do", "[experiment]") {
   CHECK(method.status == 2);
   CHECK(method.output.find("magic") != std::string::npos);
   const CommandResult data = run_posevote(
-      folder, "experiment sensitivity --dataset nowhere.ply --out " + (folder / "b").string());
+      folder, "experiment sensitivity --methods posevote --dataset nowhere.ply --out " + (folder / "b").string());
   CHECK(data.status == 2);
   CHECK(data.output.find("nowhere.ply") != std::string::npos);
+}
+
+TEST_CASE("bench times every stage and writes what it measured", "[bench]") {
+  const TemporaryFolder folder;
+  const std::string spec = folder.write("spec.yaml",
+                                        "models: [{shape: kettle, size: 0.2}]\n"
+                                        "scenes: [{sensor: rgbd, objects: [1]}]\n");
+  REQUIRE(run_posevote(folder, "simulate " + spec + " --out " + (folder / "d").string()).status ==
+          0);
+  const std::string json = (folder / "bench.json").string();
+  const CommandResult bench =
+      run_posevote(folder, "bench demo --repeat 1 --methods posevote --models " +
+                               (folder / "d/models").string() + " --scenes " +
+                               (folder / "d/scans").string() + " --out " + json);
+  INFO(bench.output);
+  REQUIRE(bench.status == 0);
+  const nlohmann::json ours = read_json(json)["posevote"];
+  CHECK(ours["online_s"].get<double>() > ours["stages_s"]["describe_scene"].get<double>());
+  CHECK(ours["stages_s"].contains("segment_objects"));
+  CHECK(run_posevote(folder, "bench --compare " + json + " " + json).status == 0);
+  CHECK(run_posevote(folder, "bench demo --models " + (folder / "d/models").string()).status == 2);
 }
