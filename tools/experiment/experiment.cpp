@@ -19,8 +19,9 @@ std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
                                     [&](const Method& method) { return method.name == name; });
     if (found == kMethods.end()) {
       std::string known;
-      for (const Method& method : kMethods) known += (known.empty() ? "" : ", ") + method.name;
-      throw std::invalid_argument("--methods " + name + ": no such method, expected " + known);
+      for (const Method& method : kMethods) known.append(" ").append(method.name);
+      throw std::invalid_argument("--methods " + name +
+                                  ": no such method, expected one of:" + known);
     }
     methods.push_back(*found);
   }

@@ -217,6 +217,7 @@ int sensitivity_experiment(const ExperimentCommand& command, const fs::path& out
   }
   const CorrespondenceJudge judge(subject.mesh, kSamePoint);
   std::vector<CorrespondenceQuality> quality;
+  quality.reserve(copies.size());
   for (const NoisyCopy& copy : copies)
     quality.push_back(judge.judge(
         out / methods.front().name / "correspondences" / (copy.file.stem().string() + ".csv"),
