@@ -101,7 +101,8 @@ TEST_CASE("UWA in folders, and all in one", "[dataset]") {
       CHECK(*instance.visible == Approx(is_chef ? 0.225 : 0.4));
       CHECK(instance.T_scene_model.translation().isApprox(Eigen::Vector3d(.01, .02, .9)));
       CHECK(truth.objects.at(instance.obj_id).diameter == Approx(0.13));
-      CHECK(truth.objects.at(instance.obj_id).center.isApprox(Eigen::Vector3d(.015, .02, .06)));
+      CHECK(
+          truth.objects.at(instance.obj_id).center.isApprox(Eigen::Vector3d(.015, .02, .06), 1e-6));
     }
     REQUIRE(truth.notes.size() == 1);
     CHECK_THAT(truth.notes[0], Contains("rhino"));
