@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,11 @@ struct SimulateCommand {
 int simulate_command(const SimulateCommand& command);
 struct EvaluateCommand {
   std::string dataset, results, split = "test";
+  std::string targets, rules, out;
+  double visible = 0.1;
+  std::optional<double> min_score;
+  int top = 0;
+  bool verbose = false;
 };
 int evaluate_command(const EvaluateCommand& command);
 

@@ -4,6 +4,7 @@
 
 #include "tools/commands.hpp"
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/write_evaluation.hpp"
 #include "tools/simulate/simulate.hpp"
 
 namespace posevote {
@@ -15,9 +16,21 @@ int simulate_command(const SimulateCommand& command) {
 }
 
 int evaluate_command(const EvaluateCommand& command) {
+  constexpr std::size_t kMostLines = 40;
   EvaluateOptions options;
-  options.split = command.split;
-  std::cout << to_text(evaluate(command.dataset, command.results, options));
+  if (!command.rules.empty()) options.rules = command.rules;
+  options.least_visible = command.visible;
+  if (command.min_score) options.min_score = *command.min_score;
+  options.top = command.top;
+  options.results = command.results;
+  choose_rules(options.rules);  // a typing mistake shows before the data set is read
+  const GroundTruth truth = read_ground_truth(command.dataset, command.split, command.targets);
+  const Evaluation evaluation = evaluate(truth, read_results_csv(command.results), options);
+  std::cout << to_text(evaluation, command.verbose || evaluation.instances.size() <= kMostLines);
+  if (!command.out.empty()) {
+    write_evaluation(evaluation, command.out);
+    std::cout << "wrote " << command.out << "\n";
+  }
   return 0;
 }
 

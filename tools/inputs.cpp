@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+
+#include "tools/evaluate/dataset.hpp"
 
 namespace posevote {
 namespace {
@@ -58,33 +58,13 @@ int number_of(const std::string& digits) {
   return error == std::errc() && end == digits.data() + digits.size() ? value : -1;
 }
 
-std::vector<fs::path> sorted_entries(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw std::invalid_argument(folder.string() + ": no such folder");
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
-nlohmann::json read_json(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::invalid_argument(file.string() + ": cannot be read");
+/// What is wrong with a data set is, for a run, wrong with its arguments.
+template <class Read>
+auto as_arguments(const Read& read) {
   try {
-    return nlohmann::json::parse(stream);
-  } catch (const nlohmann::json::exception& error) {
-    throw std::invalid_argument(file.string() + ": " + error.what());
-  }
-}
-
-Camera read_camera(const nlohmann::json& cameras, const fs::path& file, int im_id) {
-  const std::string key = std::to_string(im_id);
-  try {
-    const nlohmann::json& entry = cameras.at(key);
-    const auto k = entry.at("cam_K").get<std::vector<double>>();
-    return {k.at(0), k.at(4), k.at(2), k.at(5), entry.value("depth_scale", 1.0)};
-  } catch (const std::exception& error) {
-    throw std::invalid_argument(file.string() + ": image " + key +
-                                ": expected cam_K of 9 numbers (" + error.what() + ")");
+    return read();
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
   }
 }
 
@@ -117,25 +97,25 @@ std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
   return scenes;
 }
 
-std::vector<SceneEntry> list_bop_scenes(const std::string& dataset, const std::string& split) {
+std::vector<SceneEntry> list_dataset_scenes(const std::string& dataset, const std::string& split) {
   std::vector<SceneEntry> scenes;
-  for (const fs::path& folder : sorted_entries(fs::path(dataset) / split)) {
-    const int scene_id = number_of(folder.filename().string());
-    if (scene_id < 0 || !fs::is_directory(folder)) continue;
-    const fs::path camera_file = folder / "scene_camera.json";
-    const nlohmann::json cameras = read_json(camera_file);
-    for (const fs::path& image : sorted_entries(folder / "depth")) {
-      const int im_id = number_of(image.stem().string());
-      if (im_id < 0) continue;
-      scenes.push_back({scenes.size(),
-                        folder.filename().string() + "_" + image.stem().string(),
-                        {image, scene_id, im_id, read_camera(cameras, camera_file, im_id)}});
-    }
+  for (SceneFile& file :
+       as_arguments([&] { return find_reader(dataset, split).scenes(dataset, split); })) {
+    const bool image = file.camera.has_value();
+    const std::string folder =
+        image ? file.path.parent_path().parent_path().filename().string() + "_" : "";
+    const std::string name = folder + file.path.stem().string();
+    scenes.push_back({scenes.size(), name, std::move(file)});
   }
-  if (scenes.empty())
-    throw std::invalid_argument(dataset + ": no depth image in " + split +
-                                "/NNNNNN/depth, expected the layout of a BOP data set");
   return scenes;
+}
+
+std::vector<std::string> list_dataset_models(const std::string& dataset, const std::string& split) {
+  std::vector<std::string> files;
+  for (const fs::path& file :
+       as_arguments([&] { return find_reader(dataset, split).models(dataset); }))
+    files.push_back(file.string());
+  return files;
 }
 
 ModelFiles list_models(const std::vector<std::string>& arguments) {

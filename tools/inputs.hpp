@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns what the command line names (files, folders, globs, a BOP data set) into scenes and models.
+// Turns what the command line names (files, folders, globs, a data set) into scenes and models.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,12 @@ struct SceneEntry {
 /// and im_id from that order. Throws std::invalid_argument naming an argument that matches nothing.
 std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments);
 
-/// The depth images of `DATASET/SPLIT/NNNNNN/depth`, with their cameras from `scene_camera.json`.
-std::vector<SceneEntry> list_bop_scenes(const std::string& dataset, const std::string& split);
+/// The scans of a data set in any layout that tools/evaluate/dataset.hpp knows; of images, with
+/// their cameras. Throws std::invalid_argument naming what is missing.
+std::vector<SceneEntry> list_dataset_scenes(const std::string& dataset, const std::string& split);
+
+/// The model files of a data set, for list_models.
+std::vector<std::string> list_dataset_models(const std::string& dataset, const std::string& split);
 
 /// Model files in ascending order of obj_id: from `obj_NNNNNN` names, else 1.. in the order given.
 /// Throws std::invalid_argument for a missing file or two models of one obj_id.

@@ -55,7 +55,9 @@ void add_run(CLI::App& app, RunCommand& run) {
       ->required();
   command->add_option("--models", run.models, "Model files, folders or globs")->type_name("FILE");
   command->add_option("--scenes", run.scenes, "Scan files, folders or globs")->type_name("FILE");
-  command->add_option("--dataset", run.dataset, "A BOP data set: its models and its images")
+  command
+      ->add_option("--dataset", run.dataset,
+                   "A data set (BOP, SIXD 2017, UWA, Queen's): its models and its scans")
       ->type_name("DIR");
   command->add_option("--split", run.split, "Split of the data set")->capture_default_str();
   command->add_option("--out", run.out, "Folder for the results")->capture_default_str();
@@ -117,9 +119,31 @@ void add_simulate(CLI::App& app, SimulateCommand& simulate) {
 void add_evaluate(CLI::App& app, EvaluateCommand& evaluate) {
   CLI::App* command =
       app.add_subcommand("evaluate", "Compare results with a data set's true poses");
-  command->add_option("dataset", evaluate.dataset, "A data set in BOP layout")->required();
+  command->footer(
+      "Example:\n  posevote evaluate lmo out/today/results.csv --rules all --out out/judged\n\n"
+      "Rules: pose (50 mm, 7.5 deg), drost (diameter/10, 12 deg), add and adi15 (ADD/ADI 0.1 and\n"
+      "0.15 diameter), BOP's average recalls mssd, mspd, vsd, and vsd18 (SIXD 2018); or all.");
+  command->add_option("dataset", evaluate.dataset, "A data set: BOP, SIXD 2017, UWA or Queen's")
+      ->required();
   command->add_option("results", evaluate.results, "The results.csv of a run on it")->required();
   command->add_option("--split", evaluate.split, "Split of the data set")->capture_default_str();
+  command->add_option("--rules", evaluate.rules, "When a pose is right: rules, or all")
+      ->default_str("pose,drost,add,adi15")
+      ->type_name("RULE,...");
+  command->add_option("--visible", evaluate.visible, "Leave out instances less visible")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--targets", evaluate.targets,
+                   "Judge only these; default test_targets_bop19.json, if there; none: judge all")
+      ->type_name("FILE");
+  command->add_option("--min-score", evaluate.min_score,
+                      "Count detections from this score up; curves and best F1 take all");
+  command->add_option("--top", evaluate.top, "Only so many detections of an object in an image")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--out", evaluate.out, "Folder for tables (CSV, JSON) and plots (SVG)")
+      ->type_name("DIR");
+  command->add_flag("--verbose", evaluate.verbose, "List all instances, however many");
 }
 
 void add_experiment(CLI::App& app, ExperimentCommand& experiment) {
@@ -188,7 +212,8 @@ int dispatch(const CLI::App& app, const Options& options) {
     return with_threads(0, [&] { return experiment_command(options.experiment, interrupted); });
   if (app.got_subcommand("bench"))
     return with_threads(options.bench.threads, [&] { return bench_command(options.bench); });
-  if (app.got_subcommand("evaluate")) return evaluate_command(options.evaluate);
+  if (app.got_subcommand("evaluate"))
+    return with_threads(0, [&] { return evaluate_command(options.evaluate); });
   if (app.got_subcommand("check")) return check_command(options.config, options.set);
   if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
   if (app.got_subcommand("nodes")) return nodes_command(options.node);

@@ -22,23 +22,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// BOP data sets are in mm; the config and --set may say otherwise.
+/// Published data sets are in mm; the config and --set may say otherwise.
 std::vector<graph::Override> dataset_defaults(const RunCommand& command) {
   if (command.dataset.empty()) return {};
-  return {{"load_models", "unit", {"mm", {"--dataset", 0, 0}}}};
+  return {{"load_models", "unit", {"mm", {"--dataset", 0, 0}}},
+          {"load_scene", "unit", {"mm", {"--dataset", 0, 0}}}};
 }
 
 std::vector<SceneEntry> find_scenes(const RunCommand& command) {
   if (command.scenes.empty() == command.dataset.empty())
     throw std::invalid_argument("expected --scenes FILE... or --dataset DIR, one of them");
   return command.dataset.empty() ? list_scenes(command.scenes)
-                                 : list_bop_scenes(command.dataset, command.split);
+                                 : list_dataset_scenes(command.dataset, command.split);
 }
 
 ModelFiles find_models(const RunCommand& command) {
   std::vector<std::string> files = command.models;
   if (files.empty() && !command.dataset.empty())
-    files.push_back((fs::path(command.dataset) / "models").string());
+    files = list_dataset_models(command.dataset, command.split);
   if (files.empty() == command.library.empty())
     throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
   return list_models(files);

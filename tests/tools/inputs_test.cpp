@@ -53,7 +53,7 @@ TEST_CASE("a BOP split gives images with their cameras", "[inputs]") {
   folder.write("test/000002/scene_camera.json",
                R"({"3": {"cam_K": [500, 0, 320, 0, 510, 240, 0, 0, 1], "depth_scale": 0.1},
                    "1": {"cam_K": [500, 0, 320, 0, 510, 240, 0, 0, 1]}})");
-  const auto scenes = list_bop_scenes(folder.path().string(), "test");
+  const auto scenes = list_dataset_scenes(folder.path().string(), "test");
   REQUIRE(scenes.size() == 2);
   CHECK(scenes[1].file.scene_id == 2);
   CHECK(scenes[1].file.im_id == 3);
@@ -63,9 +63,9 @@ TEST_CASE("a BOP split gives images with their cameras", "[inputs]") {
   CHECK(scenes[1].file.camera->depth_scale == 0.1);
   CHECK(scenes[0].file.camera->depth_scale == 1);
   folder.write("test/000002/depth/000007.png", "");
-  CHECK_THROWS_WITH(list_bop_scenes(folder.path().string(), "test"),
+  CHECK_THROWS_WITH(list_dataset_scenes(folder.path().string(), "test"),
                     Catch::Contains("scene_camera.json: image 7"));
-  CHECK_THROWS_WITH(list_bop_scenes(folder.path().string(), "train"), Catch::Contains("train"));
+  CHECK_THROWS_WITH(list_dataset_scenes(folder.path().string(), "train"), Catch::Contains("train"));
 }
 
 TEST_CASE("shards share out all scans and keep their numbers", "[inputs]") {

@@ -2,172 +2,157 @@
 #include "tools/evaluate/evaluate.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <numbers>
+#include <cmath>
 #include <stdexcept>
-#include <tuple>
 
-#include "tools/evaluate/ground_truth.hpp"
-#include "tools/evaluate/pose_error.hpp"
-#include "tools/evaluate/results_csv.hpp"
+#include "graph/parallel.hpp"
+#include "tools/evaluate/judge_image.hpp"
 
 namespace posevote {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+using Cases = std::map<ImageKey, std::map<int, Case>>;
 
-/// Scene, image, object.
-using Key = std::tuple<int, int, int>;
-
-/// One object in one image: what is there, what was found (best score first), how they differ.
-struct Case {
-  std::vector<std::size_t> instances;  ///< indices into the evaluation's instances
-  std::vector<FoundInstance> found;
-  std::vector<std::vector<PoseError>> errors;  ///< [found][instance]
-};
-
-/// For each found pose, the place of its instance, or kNone. `accept` says whether an error is
-/// small enough, `order` which of two is smaller.
-template <class Accept, class Order>
-std::vector<std::size_t> match(const Case& group, const Accept& accept, const Order& order) {
-  std::vector<bool> taken(group.instances.size());
-  std::vector<std::size_t> matched;
-  for (const std::vector<PoseError>& errors : group.errors) {
-    std::size_t best = kNone;
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      if (!taken[i] && accept(errors[i]) &&
-          (best == kNone || order(errors[i]) < order(errors[best])))
-        best = i;
-    if (best != kNone) taken[best] = true;
-    matched.push_back(best);
+/// Which instances count: by visibility, or the most visible of a target.
+void choose_counted(const GroundTruth& truth, Evaluation& evaluation) {
+  std::map<std::tuple<int, int, int>, std::vector<InstanceResult*>> groups;
+  for (InstanceResult& result : evaluation.instances) {
+    result.counted = result.visible.value_or(1) >= evaluation.options.least_visible;
+    groups[{result.scene_id, result.im_id, result.obj_id}].push_back(&result);
   }
-  return matched;
-}
-
-/// Shows the pairs of `matched` in the table, where neither side is shown already.
-void show(Evaluation& evaluation, const Case& group, const std::vector<std::size_t>& matched,
-          std::vector<bool>& shown) {
-  for (std::size_t k = 0; k < matched.size(); ++k) {
-    if (matched[k] == kNone || shown[k]) continue;
-    InstanceResult& result = evaluation.instances[group.instances[matched[k]]];
-    if (result.found) continue;
-    const PoseError& error = group.errors[k][matched[k]];
-    shown[k] = result.found = true;
-    result.score = group.found[k].score;
-    result.mm = error.center * 1000;
-    result.deg = error.rotation * 180 / std::numbers::pi;
-    result.add_mm = error.add * 1000;
+  if (truth.targets.empty()) return;
+  for (auto& [key, group] : groups) {
+    std::stable_sort(group.begin(), group.end(),
+                     [](const InstanceResult* a, const InstanceResult* b) {
+                       return a->visible.value_or(1) > b->visible.value_or(1);
+                     });
+    const auto target = truth.targets.find(key);
+    const int count = target == truth.targets.end() ? 0 : target->second;
+    for (std::size_t i = 0; i < group.size(); ++i) group[i]->counted = static_cast<int>(i) < count;
   }
 }
 
-/// Counts one rule. A detection of an instance that is not counted is neither right nor wrong.
-void count(Evaluation& evaluation, const Case& group, const std::vector<std::size_t>& matched,
-           bool InstanceResult::*ok, Counts& counts) {
-  for (const std::size_t place : matched) {
-    InstanceResult* result =
-        place == kNone ? nullptr : &evaluation.instances[group.instances[place]];
-    if (result) result->*ok = true;
-    if (result && !result->counted) continue;
-    ++counts.detections;
-    if (result) ++counts.correct;
-  }
-  for (const std::size_t i : group.instances)
-    if (evaluation.instances[i].counted) ++counts.instances;
-}
-
-void judge(Evaluation& evaluation, const Case& group, const TrueObject& object,
-           RuleCounts& counts) {
-  const EvaluateOptions& options = evaluation.options;
-  const auto by_center = [](const PoseError& error) { return error.center; };
-  const auto by_add = [](const PoseError& error) { return error.add; };
-  const auto pose_ok = [&](const PoseError& error) {
-    return error.center * 1000 <= options.most_mm &&
-           error.rotation * 180 / std::numbers::pi <= options.most_deg;
-  };
-  const auto add_ok = [&](const PoseError& error) {
-    return error.add <= options.add_fraction * object.diameter;
-  };
-  const std::vector<std::size_t> by_pose_rule = match(group, pose_ok, by_center);
-  const std::vector<std::size_t> by_add_rule = match(group, add_ok, by_add);
-  count(evaluation, group, by_pose_rule, &InstanceResult::pose_ok, counts.pose);
-  count(evaluation, group, by_add_rule, &InstanceResult::add_ok, counts.add);
-  std::vector<bool> shown(group.found.size());
-  show(evaluation, group, by_pose_rule, shown);
-  show(evaluation, group, by_add_rule, shown);
-  for (std::size_t k = 0; k < shown.size(); ++k) {  // what was not matched, beside the nearest
-    std::vector<std::size_t> rest(shown.size(), kNone);
-    for (std::size_t i = 0; i < group.instances.size(); ++i)
-      if (!evaluation.instances[group.instances[i]].found &&
-          (rest[k] == kNone || group.errors[k][i].center < group.errors[k][rest[k]].center))
-        rest[k] = i;
-    show(evaluation, group, rest, shown);
-  }
-}
-
-std::map<Key, Case> group_by_object(const GroundTruth& truth, Evaluation& evaluation) {
-  std::map<Key, Case> groups;
+Cases group_instances(const GroundTruth& truth, Evaluation& evaluation) {
   for (const TrueInstance& instance : truth.instances) {
-    groups[{instance.scene_id, instance.im_id, instance.obj_id}].instances.push_back(
-        evaluation.instances.size());
     InstanceResult result;
     result.scene_id = instance.scene_id, result.im_id = instance.im_id;
     result.obj_id = instance.obj_id;
     result.visible = instance.visible;
-    result.counted = instance.visible.value_or(1) >= evaluation.options.least_visible;
-    evaluation.instances.push_back(result);
+    result.met.resize(evaluation.rules.size());
+    evaluation.instances.push_back(std::move(result));
   }
-  return groups;
+  choose_counted(truth, evaluation);
+  Cases cases;
+  for (std::size_t i = 0; i < truth.instances.size(); ++i) {
+    const TrueInstance& instance = truth.instances[i];
+    Case& group = cases[{instance.scene_id, instance.im_id}][instance.obj_id];
+    group.instances.push_back(&instance);
+    group.results.push_back(&evaluation.instances[i]);
+  }
+  return cases;
 }
 
-void add_found(const std::string& file, const GroundTruth& truth, std::map<Key, Case>& groups) {
-  for (FoundInstance& found : read_results_csv(file)) {
-    const auto refuse = [&](const std::string& what) {
-      throw std::runtime_error(file + ":" + std::to_string(found.line) + ": " + what);
-    };
-    if (!truth.images.contains({found.scene_id, found.im_id}))
-      refuse("scene_id " + std::to_string(found.scene_id) + ", im_id " +
-             std::to_string(found.im_id) + " is no image of the ground truth");
-    if (!truth.objects.contains(found.obj_id))
-      refuse("obj_id " + std::to_string(found.obj_id) + " is not in models_info.json");
-    groups[{found.scene_id, found.im_id, found.obj_id}].found.push_back(std::move(found));
-  }
-  for (auto& [key, group] : groups)  // equal scores: the row that comes first
-    std::stable_sort(group.found.begin(), group.found.end(),
-                     [](const auto& a, const auto& b) { return a.score > b.score; });
+/// Refuses a row that cannot be of this data set; false: of an image that is not judged.
+bool check_row(const FoundInstance& found, const GroundTruth& truth, const std::string& file) {
+  const auto refuse = [&](const std::string& what) {
+    throw std::runtime_error(file + ":" + std::to_string(found.line) + ": " + what);
+  };
+  const ImageKey key{found.scene_id, found.im_id};
+  if (truth.left_out.contains(key)) return false;
+  if (!truth.images.contains(key))
+    refuse("scene_id " + std::to_string(found.scene_id) + ", im_id " + std::to_string(found.im_id) +
+           " is no image of the ground truth");
+  if (!truth.objects.contains(found.obj_id))
+    refuse("obj_id " + std::to_string(found.obj_id) + " is no object of the data set");
+  return true;
 }
 
-void add_to(Counts& sum, const Counts& part) {
-  sum.instances += part.instances;
-  sum.detections += part.detections;
-  sum.correct += part.correct;
+void add_found(const std::vector<FoundInstance>& rows, const GroundTruth& truth,
+               const EvaluateOptions& options, Cases& cases) {
+  for (const FoundInstance& found : rows)
+    if (check_row(found, truth, options.results))
+      cases[{found.scene_id, found.im_id}][found.obj_id].found.push_back(&found);
+  for (auto& [key, objects] : cases)
+    for (auto& [obj_id, group] : objects) {  // equal scores: the row that comes first
+      std::stable_sort(group.found.begin(), group.found.end(),
+                       [](const auto* a, const auto* b) { return a->score > b->score; });
+      if (options.top > 0 && group.found.size() > std::size_t(options.top))
+        group.found.resize(std::size_t(options.top));
+    }
+}
+
+/// The counts of a rule over some instances and the verdicts on their detections.
+struct Sum {
+  std::vector<const InstanceResult*> instances;
+  std::vector<Verdict> verdicts;
+  int unmeasured = 0;
+};
+
+RuleResult summarise(const Sum& sum, std::size_t rule, const Evaluation& evaluation) {
+  RuleResult result;
+  result.unmeasured = sum.unmeasured;
+  for (const InstanceResult* instance : sum.instances) {
+    const double met = instance->met[rule];
+    if (!instance->counted || std::isnan(met)) continue;
+    ++result.counts.instances;
+    result.counts.correct += met;
+    if (!instance->visible) continue;
+    const double bin = std::floor(std::clamp(*instance->visible, 0.0, 0.999999) * 10);
+    VisibleBin& place = result.by_visibility[static_cast<std::size_t>(bin)];
+    ++place.instances;
+    place.correct += met;
+  }
+  for (const Verdict& verdict : sum.verdicts)
+    result.counts.detections += verdict.score >= evaluation.options.min_score;
+  if (!evaluation.rules[rule].average())
+    result.curve = make_curve(sum.verdicts, result.counts.instances);
+  return result;
+}
+
+void summarise_all(const std::vector<std::vector<CaseResult>>& images, Evaluation& evaluation) {
+  for (std::size_t r = 0; r < evaluation.rules.size(); ++r) {
+    std::map<int, Sum> sums;
+    Sum all;
+    for (const InstanceResult& instance : evaluation.instances) {
+      sums[instance.obj_id].instances.push_back(&instance);
+      all.instances.push_back(&instance);
+    }
+    for (const auto& results : images)
+      for (const CaseResult& result : results)
+        for (Sum* sum : {&sums[result.obj_id], &all}) {
+          sum->verdicts.insert(sum->verdicts.end(), result.verdicts[r].begin(),
+                               result.verdicts[r].end());
+          sum->unmeasured += result.unmeasured[r];
+        }
+    for (const auto& [obj_id, sum] : sums)
+      evaluation.objects[obj_id].push_back(summarise(sum, r, evaluation));
+    evaluation.all.push_back(summarise(all, r, evaluation));
+  }
 }
 
 }  // namespace
 
-Evaluation evaluate(const std::filesystem::path& dataset, const std::string& results_csv,
+Evaluation evaluate(const GroundTruth& truth, const std::vector<FoundInstance>& found,
                     const EvaluateOptions& options) {
-  const GroundTruth truth = read_ground_truth(dataset, options.split);
   Evaluation evaluation;
   evaluation.options = options;
-  std::map<Key, Case> groups = group_by_object(truth, evaluation);
-  add_found(results_csv, truth, groups);
+  evaluation.rules = choose_rules(options.rules);
+  evaluation.notes = truth.notes;
+  Cases cases = group_instances(truth, evaluation);
+  add_found(found, truth, options, cases);
   std::map<int, PoseMeter> meters;
-  for (auto& [key, group] : groups) {
-    const int obj_id = std::get<2>(key);
-    const TrueObject& object = truth.objects.at(obj_id);
-    const PoseMeter& meter = meters.try_emplace(obj_id, object).first->second;
-    for (const FoundInstance& found : group.found) {
-      group.errors.emplace_back();
-      for (const std::size_t i : group.instances)
-        group.errors.back().push_back(
-            meter.measure(truth.instances[i].T_scene_model, found.T_scene_model));
-    }
-    judge(evaluation, group, object, evaluation.objects[obj_id]);
+  for (const auto& [obj_id, object] : truth.objects) {
+    evaluation.names[obj_id] = object.name;
+    if (object.points.rows() > 0) meters.try_emplace(obj_id, object);
   }
-  for (const auto& [obj_id, counts] : evaluation.objects) {
-    add_to(evaluation.all.pose, counts.pose);
-    add_to(evaluation.all.add, counts.add);
-  }
+  std::vector<Cases::value_type*> images;
+  for (auto& image : cases) images.push_back(&image);
+  std::vector<std::vector<CaseResult>> results(images.size());
+  graph::parallel_for(images.size(), 1, [&](std::size_t i) {
+    results[i] = judge_image(truth, images[i]->first, images[i]->second, meters, evaluation.rules,
+                             options.min_score);
+  });
+  summarise_all(results, evaluation);
   return evaluation;
 }
 

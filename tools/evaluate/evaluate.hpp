@@ -1,63 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares a run's results with the true poses of a BOP data set.
+// Compares a run's results with the true poses of a data set.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/evaluate/curve.hpp"
+#include "tools/evaluate/ground_truth.hpp"
+#include "tools/evaluate/results_csv.hpp"
+#include "tools/evaluate/rules.hpp"
+
 namespace posevote {
 
 struct EvaluateOptions {
-  std::string split = "test";
-  double most_mm = 50;         ///< pose rule: distance of the model centres, and
-  double most_deg = 7.5;       ///< rotation error, as in the UWA authors' scripts
-  double add_fraction = 0.1;   ///< ADD rule: ADD (symmetric objects: ADI) over the diameter
-  double least_visible = 0.1;  ///< instances less visible are left out, found or not, as BOP does
+  std::string rules = "pose,drost,add,adi15";
+  /// Instances less visible are left out, found or not. A list of targets says itself which count.
+  double least_visible = 0.1;
+  double min_score = -std::numeric_limits<double>::infinity();  ///< of recall, precision and F1
+  std::string results = "results";                              ///< their name in messages
+  int top = 0;  ///< judge only so many detections of an object in an image; 0: all
 };
 
 /// One true instance and the detection that was matched with it, or else lies nearest to it.
 struct InstanceResult {
   int scene_id = 0, im_id = 0, obj_id = 0;
   std::optional<double> visible;  ///< fraction
-  bool counted = true;            ///< false: less visible than asked for
-  bool found = false;             ///< whether the numbers below hold
-  double score = 0, mm = 0, deg = 0, add_mm = 0;
-  bool pose_ok = false;  ///< some detection is matched with it by the pose rule
-  bool add_ok = false;   ///< ... by the ADD rule
+  bool counted = true;            ///< false: less visible than asked for, or no target
+  bool found = false;             ///< whether score and errors hold
+  double score = 0;
+  PairErrors errors;
+  /// By rule: whether a detection from min_score up was matched with it; of average recalls the
+  /// share of conditions; kUnknown where it cannot be measured.
+  std::vector<double> met;
 };
 
-/// How often one rule was met.
-struct Counts {
-  int instances = 0, detections = 0, correct = 0;
-  double recall() const { return ratio(correct, instances); }
-  double precision() const { return ratio(correct, detections); }
-  double f1() const { return ratio(2 * correct, instances + detections); }
-
- private:
-  static double ratio(int part, int whole) { return whole > 0 ? 1.0 * part / whole : 0; }
+struct VisibleBin {
+  int instances = 0;
+  double correct = 0;
 };
 
-struct RuleCounts {
-  Counts pose, add;
+/// One rule over one object or all.
+struct RuleResult {
+  Counts counts;                  ///< from min_score up
+  int unmeasured = 0;             ///< counted instances without the depth image or camera it needs
+  std::vector<CurvePoint> curve;  ///< empty for average recalls
+  std::array<VisibleBin, 10> by_visibility;  ///< 0-10 % .. 90-100 % visible
 };
 
 struct Evaluation {
   EvaluateOptions options;
-  std::vector<InstanceResult> instances;
-  std::map<int, RuleCounts> objects;  ///< by obj_id
-  RuleCounts all;
+  std::vector<Rule> rules;
+  std::vector<InstanceResult> instances;           ///< as in the truth
+  std::map<int, std::vector<RuleResult>> objects;  ///< by obj_id, then by rule
+  std::map<int, std::string> names;                ///< of objects
+  std::vector<RuleResult> all;                     ///< by rule
+  std::vector<std::string> notes;                  ///< what was not judged
 };
 
-/// For each image, object and rule, detections take in descending order of their score the nearest
-/// correct instance that is still free; the others are false positives. Throws std::runtime_error
-/// naming what is wrong with the truth (file) or the results (file:line).
-Evaluation evaluate(const std::filesystem::path& dataset, const std::string& results_csv,
+/// For each image, object and condition, detections take in descending order of their score the
+/// nearest right instance that is still free; the others are false positives, but one that finds an
+/// instance that is not counted is neither. Of BOP's average recalls, as many detections are judged
+/// as instances count, the best first. Throws std::runtime_error naming a row (line) whose image or
+/// object is not in the data set.
+Evaluation evaluate(const GroundTruth& truth, const std::vector<FoundInstance>& found,
                     const EvaluateOptions& options = {});
 
-/// A table with a line for each instance, and a summary that names the rule beside every number.
-std::string to_text(const Evaluation& evaluation);
+/// Text: with `instances`, a line for each; and a summary that names the rule beside every number.
+std::string to_text(const Evaluation& evaluation, bool instances);
 
 }  // namespace posevote

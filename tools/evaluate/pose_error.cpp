@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/evaluate/pose_error.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
+#include "tools/evaluate/extreme_points.hpp"
 #include "tools/evaluate/rotation.hpp"
 
 namespace posevote {
@@ -24,33 +26,74 @@ double nearest_distance(const PointGrid& grid, const Eigen::Vector3d& point, dou
   for (const double radius : {0.03, 0.1, 0.3, 1.0, 5.0})
     if (const auto near = grid.nearest(point.cast<float>(), static_cast<float>(radius * diameter)))
       return std::sqrt(double{near->squared});
-  return std::numeric_limits<double>::infinity();
+  return kBeyond;
+}
+
+double farthest(const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& A,
+                const Eigen::Isometry3d& B) {
+  const Eigen::Matrix3d turn = A.linear() - B.linear();
+  const Eigen::Vector3d shift = A.translation() - B.translation();
+  return std::sqrt(((turn * points).colwise() + shift).colwise().squaredNorm().maxCoeff());
+}
+
+double farthest_in_image(const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& A,
+                         const Eigen::Isometry3d& B, const Camera& camera) {
+  double most = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d a = A * points.col(i), b = B * points.col(i);
+    if (!(a.z() > 0) || !(b.z() > 0)) return kBeyond;
+    const double u = camera.fx * (a.x() / a.z() - b.x() / b.z());
+    const double v = camera.fy * (a.y() / a.z() - b.y() / b.z());
+    most = std::max(most, u * u + v * v);
+  }
+  return std::sqrt(most);
 }
 
 }  // namespace
 
+std::vector<Eigen::Isometry3d> symmetry_steps(const TrueObject& object) {
+  std::vector<Eigen::Isometry3d> turns{Eigen::Isometry3d::Identity()};
+  const int count = static_cast<int>(std::ceil(M_PI / 0.01));
+  for (const SymmetryAxis& axis : object.axes)
+    for (int i = 1; i < count; ++i)
+      turns.push_back(Eigen::Translation3d(axis.offset) *
+                      Eigen::AngleAxisd(2 * M_PI * i / count, axis.direction) *
+                      Eigen::Translation3d(-axis.offset));
+  std::vector<Eigen::Isometry3d> steps;
+  for (const Eigen::Isometry3d& symmetry : object.symmetries)
+    for (const Eigen::Isometry3d& turn : turns) steps.push_back(turn * symmetry);
+  return steps;
+}
+
 PoseMeter::PoseMeter(const TrueObject& object)
     : object_(&object),
       sample_(sample_of(object.points)),
+      extreme_(extreme_points(object.points)),
+      all_(object.points.transpose().cast<double>()),
+      steps_(symmetry_steps(object)),
       grid_(object.points, static_cast<float>(object.diameter / 15)) {}
 
-PoseError PoseMeter::measure(const Eigen::Isometry3d& T_true,
-                             const Eigen::Isometry3d& T_found) const {
-  PoseError error;
-  error.center = (T_true * object_->center - T_found * object_->center).norm();
-  error.rotation = rotation_error(T_true.linear(), T_found.linear());
-  if (error.center > object_->diameter)
-    error.add = std::numeric_limits<double>::infinity();
-  else
-    error.add = object_->symmetric() ? adi(T_true, T_found) : add(T_true, T_found);
-  return error;
+double PoseMeter::center(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const {
+  return (T_true * object_->center - T_found * object_->center).norm();
+}
+
+double PoseMeter::rotation(const Eigen::Isometry3d& T_true,
+                           const Eigen::Isometry3d& T_found) const {
+  double least = kBeyond;
+  for (const Eigen::Isometry3d& symmetry : object_->symmetries) {
+    const Eigen::Matrix3d R = T_true.linear() * symmetry.linear();
+    if (object_->axes.empty()) least = std::min(least, angle_between(R, T_found.linear()));
+    for (const SymmetryAxis& axis : object_->axes) {
+      const Eigen::Vector3d a = R * axis.direction, b = T_found.linear() * axis.direction;
+      least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+  }
+  return least;
 }
 
 double PoseMeter::add(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const {
-  return (T_true * sample_ - T_found * sample_).colwise().norm().mean();
-}
-
-double PoseMeter::adi(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const {
+  if (center(T_true, T_found) > object_->diameter) return kBeyond;
+  if (!object_->symmetric()) return (T_true * sample_ - T_found * sample_).colwise().norm().mean();
   const Eigen::Isometry3d T_found_true = T_found.inverse() * T_true;
   double sum = 0;
   for (Eigen::Index i = 0; i < sample_.cols(); ++i)
@@ -58,18 +101,36 @@ double PoseMeter::adi(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& 
   return sum / static_cast<double>(sample_.cols());
 }
 
-double PoseMeter::rotation_error(const Eigen::Matrix3d& R_true,
-                                 const Eigen::Matrix3d& R_found) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Eigen::Isometry3d& symmetry : object_->symmetries) {
-    const Eigen::Matrix3d R = R_true * symmetry.linear();
-    if (object_->axes.empty()) least = std::min(least, angle_between(R, R_found));
-    for (const Eigen::Vector3d& axis : object_->axes) {
-      const Eigen::Vector3d a = R * axis, b = R_found * axis;
-      least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
+/// The extreme points bound the distance over all points from below; so few symmetries need all
+/// points, and the result is that of all.
+template <class Measure>
+double PoseMeter::least_over_symmetries(const Measure& measure) const {
+  std::vector<double> bounds;
+  for (const Eigen::Isometry3d& step : steps_) bounds.push_back(measure(extreme_, step));
+  std::vector<std::size_t> order(steps_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return bounds[a] < bounds[b]; });
+  double least = kBeyond;
+  for (const std::size_t i : order) {
+    if (bounds[i] >= least) break;
+    least = std::min(least, measure(all_, steps_[i]));
   }
   return least;
+}
+
+double PoseMeter::mssd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const {
+  if (center(T_true, T_found) > object_->diameter) return kBeyond;
+  return least_over_symmetries([&](const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& step) {
+    return farthest(points, T_true * step, T_found);
+  });
+}
+
+double PoseMeter::mspd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found,
+                       const Camera& camera) const {
+  return least_over_symmetries([&](const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& step) {
+    return farthest_in_image(points, T_true * step, T_found, camera);
+  });
 }
 
 }  // namespace posevote

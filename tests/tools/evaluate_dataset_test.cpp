@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each layout of data sets, read from tiny files; and what is said of contradictions.
+#include <catch2/catch.hpp>
+
+#include "nodes/write/write_ply.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tools/evaluate/dataset.hpp"
+#include "tools/inputs.hpp"
+
+using namespace posevote;
+using Catch::Contains;
+using posevote::test::TemporaryFolder;
+
+namespace {
+
+constexpr const char* kShift = "1 0 0 10\n0 1 0 20\n0 0 1 900\n0 0 0 1\n";
+
+void write_box(const std::filesystem::path& file) {
+  Cloud bar;
+  bar.points.resize(8, 3);
+  for (int i = 0; i < 8; ++i)
+    bar.points.row(i) << (i & 1 ? 30.F : 0.F), (i & 2 ? 40.F : 0.F), (i & 4 ? 120.F : 0.F);
+  std::filesystem::create_directories(file.parent_path());
+  write_ply(file, bar);
+}
+
+std::string message_of(const TemporaryFolder& folder) {
+  try {
+    read_ground_truth(folder.path(), "test");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void write_sixd(const TemporaryFolder& folder) {
+  write_box(folder / "models/obj_02.ply");
+  folder.write("models/models_info.yml",
+               "2: {diameter: 130, min_x: 0, min_y: 0, min_z: 0, size_x: 30, size_y: 40, size_z: "
+               "120}\n");
+  folder.write("test/05/info.yml",
+               "7:\n  cam_K: [500.0, 0.0, 320.0, 0.0, 510.0, 240.0, 0.0, 0.0, 1.0]\n"
+               "  depth_scale: 0.1\n");
+  folder.write("test/05/gt.yml",
+               "7:\n- cam_R_m2c: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n  cam_t_m2c: [10.0, 20, 9e2]\n"
+               "  obj_bb: [1, 2, 3, 4]\n  obj_id: 2\n");
+  folder.write("test/05/depth/0007.png", "");
+}
+
+void write_uwa(const TemporaryFolder& folder, const std::string& models, const std::string& scenes,
+               const std::string& poses) {
+  write_box(folder / (models + "chef.ply"));
+  write_box(folder / (models + "T-rex_high.ply"));
+  folder.write(scenes + "rs1.ply", "");
+  folder.write(scenes + "rs2.ply", "");
+  folder.write(scenes + "rs10.ply", "");
+  folder.write(poses + "chef-rs1.xf", kShift);
+  folder.write(poses + "T-rex-rs10.xf", kShift);
+  folder.write(poses + "rhino-rs2.xf", kShift);
+  folder.write("occlusion.txt", "scene\tobject\t% occlusion\n1\tchef\t77.5\n10\ttrex\t60\n");
+}
+
+}  // namespace
+
+TEST_CASE("SIXD 2017", "[dataset]") {
+  const TemporaryFolder folder;
+  write_sixd(folder);
+  const GroundTruth truth = read_ground_truth(folder.path(), "test");
+  REQUIRE(truth.instances.size() == 1);
+  CHECK(truth.instances[0].scene_id == 5);
+  CHECK(truth.instances[0].im_id == 7);
+  CHECK(truth.instances[0].T_scene_model.translation().isApprox(Eigen::Vector3d(.01, .02, .9)));
+  CHECK(truth.images.at({5, 7}).camera->fy == 510);
+  CHECK(truth.images.at({5, 7}).camera->depth_scale == 0.1);
+  CHECK(truth.objects.at(2).diameter == Approx(0.13));
+  const auto scenes = list_dataset_scenes(folder.path().string(), "test");
+  REQUIRE(scenes.size() == 1);
+  CHECK(scenes[0].file.scene_id == 5);
+  CHECK(scenes[0].file.im_id == 7);
+  CHECK(scenes[0].file.camera->cx == 320);
+  CHECK(scenes[0].name == "05_0007");
+  CHECK(list_models(list_dataset_models(folder.path().string(), "test"))[0].obj_id == 2);
+}
+
+TEST_CASE("UWA in folders, and all in one", "[dataset]") {
+  for (const bool flat : {false, true}) {
+    const TemporaryFolder folder;
+    write_uwa(folder, flat ? "" : "models/", flat ? "" : "scenes/", flat ? "" : "ground_truth/");
+    const GroundTruth truth = read_ground_truth(folder.path(), "test");
+    REQUIRE(truth.instances.size() == 2);
+    const auto scenes = list_dataset_scenes(folder.path().string(), "test");
+    const ModelFiles models = list_models(list_dataset_models(folder.path().string(), "test"));
+    REQUIRE(scenes.size() == 3);
+    REQUIRE(models.size() == 2);
+    for (const TrueInstance& instance : truth.instances) {
+      const SceneFile& scene = scenes[static_cast<std::size_t>(instance.im_id)].file;
+      const ModelFile& model = models[static_cast<std::size_t>(instance.obj_id) - 1];
+      const bool is_chef = model.name == "chef";
+      CHECK(scene.im_id == instance.im_id);
+      CHECK(scene.path.stem() == (is_chef ? "rs1" : "rs10"));
+      CHECK(*instance.visible == Approx(is_chef ? 0.225 : 0.4));
+      CHECK(instance.T_scene_model.translation().isApprox(Eigen::Vector3d(.01, .02, .9)));
+      CHECK(truth.objects.at(instance.obj_id).diameter == Approx(0.13));
+      CHECK(
+          truth.objects.at(instance.obj_id).center.isApprox(Eigen::Vector3d(.015, .02, .06), 1e-6));
+    }
+    REQUIRE(truth.notes.size() == 1);
+    CHECK_THAT(truth.notes[0], Contains("rhino"));
+    CHECK(truth.images.size() == 3);  // the rhino's scene is judged: nothing else is in it
+  }
+}
+
+TEST_CASE("UWA: contradictions are named", "[dataset]") {
+  const TemporaryFolder folder;
+  write_uwa(folder, "models/", "scenes/", "ground_truth/");
+  folder.write("ground_truth/chef-rs3.xf", kShift);
+  CHECK_THAT(message_of(folder), Contains("chef-rs3.xf: there is no scene rs3.ply"));
+  std::filesystem::remove(folder / "ground_truth/chef-rs3.xf");
+  folder.write("ground_truth/chef-rs2.xf", "1 0 0\n");
+  CHECK_THAT(message_of(folder), Contains("chef-rs2.xf: expected 16 numbers, number 4"));
+  folder.write("ground_truth/chef-rs2.xf", "1 0 0 0 0 2 0 0 0 0 1 0 0 0 0 1");
+  CHECK_THAT(message_of(folder), Contains("chef-rs2.xf: R is no rotation"));
+  std::filesystem::remove(folder / "ground_truth/chef-rs2.xf");
+  folder.write("ground_truth/notes.xf", kShift);
+  CHECK_THAT(message_of(folder), Contains("notes.xf: expected a name like OBJECT-rsN.xf"));
+}
+
+TEST_CASE("image sets: contradictions are named", "[dataset]") {
+  const TemporaryFolder folder;
+  CHECK_THAT(message_of(folder), Contains("is no data set") && Contains("SIXD 2017"));
+  write_sixd(folder);
+  folder.write("test/05/depth/0008.png", "");
+  CHECK(message_of(folder) == "accepted");  // an image without poses is not judged
+  CHECK(read_ground_truth(folder.path(), "test").left_out.contains({5, 8}));
+  CHECK_THROWS_WITH(list_dataset_scenes(folder.path().string(), "test"),
+                    Contains("info.yml: image 8: has no camera"));
+  std::filesystem::rename(folder / "test/05/depth/0007.png", folder / "test/05/depth/0009.png");
+  write_box(folder / "models/obj_03.ply");
+  std::filesystem::remove(folder / "models/obj_02.ply");
+  CHECK_THAT(message_of(folder), Contains("obj_000002.ply: is missing"));
+  std::filesystem::remove(folder / "test/05/info.yml");
+  CHECK_THAT(message_of(folder), Contains("info.yml: is missing"));
+  folder.write("test/05/gt.yml", "7: [{obj_id: 2}]\n");
+  CHECK_THAT(message_of(folder), Contains("gt.yml: image 7, instance 0") && Contains("cam_R_m2c"));
+  folder.write("test/05/gt.yml", "7: [\n");
+  CHECK_THAT(message_of(folder), Contains("gt.yml"));
+}
+
+TEST_CASE("poses of an image that is not there", "[dataset]") {
+  const TemporaryFolder folder;
+  write_sixd(folder);
+  const std::string pose = "- {cam_R_m2c: [1,0,0,0,1,0,0,0,1], cam_t_m2c: [0,0,900], obj_id: 2}\n";
+  folder.write("test/05/gt.yml", "7:\n" + pose + "8:\n" + pose);
+  CHECK_THAT(message_of(folder), Contains("image 8 has true poses but no depth image"));
+  folder.write("targets.json", R"([{"scene_id": 5, "im_id": 7, "obj_id": 2, "inst_count": 1}])");
+  const GroundTruth truth =
+      read_ground_truth(folder.path(), "test", (folder / "targets.json").string());
+  CHECK(truth.instances.size() == 1);
+  CHECK(truth.left_out.contains({5, 8}));
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluate/dataset.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "graph/schema.hpp"
+#include "tools/evaluate/extreme_points.hpp"
+
+namespace posevote {
+
+namespace fs = std::filesystem;
+
+const DatasetReader& find_reader(const fs::path& dataset, const std::string& split) {
+  if (!fs::is_directory(dataset)) dataset::fail(dataset, "no such folder");
+  const DatasetReader* const readers[] = {&kBopReader, &kSixdReader, &kUwaReader};
+  for (const DatasetReader* reader : readers)
+    if (reader->recognises(dataset, split)) return *reader;
+  std::string text = "is no data set with a split '" + split + "'; expected one of";
+  for (const DatasetReader* reader : readers)
+    text += std::string("\n  ") + reader->layout + ": " + reader->expected;
+  dataset::fail(dataset, text);
+}
+
+namespace dataset {
+
+void fail(const fs::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+int number_of(const std::string& digits) {
+  if (digits.empty() ||
+      !std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; }))
+    return -1;
+  const std::size_t first = digits.find_first_not_of('0');
+  return first == std::string::npos ? 0
+                                    : graph::Scalar<int>::parse(digits.substr(first)).value_or(-1);
+}
+
+nlohmann::json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream) fail(file, "cannot be read: no such file?");
+  nlohmann::json root = nlohmann::json::parse(stream, nullptr, false);
+  if (!root.is_object()) fail(file, "is no JSON object");
+  return root;
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  if (fs::is_directory(folder))
+    for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::map<int, fs::path> number_models(const std::vector<fs::path>& files) {
+  std::map<int, fs::path> models;
+  int order = 0;
+  for (const fs::path& file : files) {
+    ++order;
+    const std::string stem = file.stem().string();
+    const int named = stem.starts_with("obj_") ? number_of(stem.substr(4)) : -1;
+    const auto [first, is_new] = models.emplace(named >= 0 ? named : order, file);
+    if (!is_new)
+      fail(file,
+           "has obj_id " + std::to_string(first->first) + ", as has " + first->second.string());
+  }
+  return models;
+}
+
+void measure_object(TrueObject& object) {
+  if (object.points.rows() == 0) return;
+  const Eigen::RowVector3f low = object.points.colwise().minCoeff();
+  const Eigen::RowVector3f high = object.points.colwise().maxCoeff();
+  object.center = (0.5F * (low + high)).transpose().cast<double>();
+  const Eigen::Matrix3Xd ends = extreme_points(object.points);
+  for (Eigen::Index i = 0; i < ends.cols(); ++i)
+    object.diameter =
+        std::max(object.diameter, (ends.colwise() - ends.col(i)).colwise().norm().maxCoeff());
+}
+
+}  // namespace dataset
+}  // namespace posevote

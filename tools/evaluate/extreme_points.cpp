@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluate/extreme_points.hpp"
+
+#include <cmath>
+#include <set>
+
+namespace posevote {
+
+Eigen::Matrix3Xd extreme_points(const PointMatrix& points) {
+  constexpr int kDirections = 500;
+  const double kGoldenAngle = M_PI * (3 - std::sqrt(5.0));
+  std::set<Eigen::Index> chosen;
+  for (int k = 0; k < kDirections && points.rows() > 0; ++k) {
+    const double z = 1 - (2 * k + 1.0) / kDirections, ring = std::sqrt(1 - z * z);
+    const Eigen::Vector3d direction(ring * std::cos(kGoldenAngle * k),
+                                    ring * std::sin(kGoldenAngle * k), z);
+    Eigen::Index outermost = 0;
+    (points * direction.cast<float>()).maxCoeff(&outermost);
+    chosen.insert(outermost);
+  }
+  Eigen::Matrix3Xd extreme(3, static_cast<Eigen::Index>(chosen.size()));
+  Eigen::Index column = 0;
+  for (const Eigen::Index i : chosen)
+    extreme.col(column++) = points.row(i).transpose().cast<double>();
+  return extreme;
+}
+
+}  // namespace posevote

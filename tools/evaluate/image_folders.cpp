@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluate/image_folders.hpp"
+
+#include <stdexcept>
+
+#include "tools/evaluate/rotation.hpp"
+
+namespace posevote::dataset {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kMetresPerUnit = 0.001;
+
+/// Runs `read`; what is wrong with the file's types or keys is reported with the place in it.
+template <class Read>
+auto located(const fs::path& file, const std::string& place, const Read& read) {
+  try {
+    return read();
+  } catch (const json::exception& error) {
+    fail(file, place + ": " + error.what());
+  } catch (const std::invalid_argument& error) {
+    fail(file, place + ": " + error.what());
+  }
+}
+
+std::vector<double> numbers(const json& list, std::size_t count, const std::string& name) {
+  const auto values = list.get<std::vector<double>>();
+  if (values.size() != count)
+    throw std::invalid_argument(name + " has " + std::to_string(values.size()) +
+                                " numbers, expected " + std::to_string(count));
+  return values;
+}
+
+Eigen::Vector3d metres(const json& list, const std::string& name) {
+  const std::vector<double> v = numbers(list, 3, name);
+  return Eigen::Vector3d(v[0], v[1], v[2]) * kMetresPerUnit;
+}
+
+Eigen::Isometry3d read_symmetry(const json& list) {
+  const std::vector<double> m = numbers(list, 16, "symmetries_discrete");
+  return make_pose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
+                   Eigen::Vector3d(m[3], m[7], m[11]) * kMetresPerUnit);
+}
+
+SymmetryAxis read_axis(const json& symmetry) {
+  SymmetryAxis axis;
+  axis.direction = metres(symmetry.at("axis"), "axis").normalized();
+  if (symmetry.contains("offset")) axis.offset = metres(symmetry.at("offset"), "offset");
+  if (!axis.direction.allFinite() || axis.direction.isZero() || !axis.offset.allFinite())
+    throw std::invalid_argument("the axis of a symmetry has no direction");
+  return axis;
+}
+
+TrueObject read_object(const json& info) {
+  TrueObject object;
+  object.diameter = info.at("diameter").get<double>() * kMetresPerUnit;
+  if (!(object.diameter > 0)) throw std::invalid_argument("diameter must be > 0");
+  const std::string axes[3] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis)
+    object.center[axis] = (info.at("min_" + axes[axis]).get<double>() +
+                           info.at("size_" + axes[axis]).get<double>() / 2) *
+                          kMetresPerUnit;
+  object.symmetries = {Eigen::Isometry3d::Identity()};
+  for (const json& matrix : info.value("symmetries_discrete", json::array()))
+    object.symmetries.push_back(read_symmetry(matrix));
+  for (const json& symmetry : info.value("symmetries_continuous", json::array()))
+    object.axes.push_back(read_axis(symmetry));
+  return object;
+}
+
+TrueInstance read_instance(const json& entry) {
+  const std::vector<double> r = numbers(entry.at("cam_R_m2c"), 9, "cam_R_m2c");
+  TrueInstance instance;
+  instance.obj_id = entry.at("obj_id").get<int>();
+  instance.T_scene_model = make_pose({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]},
+                                     metres(entry.at("cam_t_m2c"), "cam_t_m2c"));
+  return instance;
+}
+
+Camera read_camera(const json& entry) {
+  const std::vector<double> k = numbers(entry.at("cam_K"), 9, "cam_K");
+  const Camera camera{k[0], k[4], k[2], k[5], entry.value("depth_scale", 1.0)};
+  if (!(camera.fx > 0) || !(camera.fy > 0) || !(camera.depth_scale > 0))
+    throw std::invalid_argument("cam_K and depth_scale must be > 0");
+  return camera;
+}
+
+/// Entries by image number ("10" follows "9").
+std::map<int, json> by_image(const ImageFolders& names, const fs::path& file) {
+  std::map<int, json> images;
+  const json root = names.read(file);
+  for (const auto& item : root.items()) {
+    const int im_id = number_of(item.key());
+    if (im_id < 0) fail(file, "'" + item.key() + "' is no image number");
+    if (!images.emplace(im_id, item.value()).second)
+      fail(file, "image " + std::to_string(im_id) + " is given twice");
+  }
+  return images;
+}
+
+std::map<int, fs::path> scene_folders(const fs::path& root) {
+  std::map<int, fs::path> folders;
+  for (const fs::path& entry : entries_of(root)) {
+    const int scene_id = number_of(entry.filename().string());
+    if (scene_id < 0 || !fs::is_directory(entry)) continue;
+    const auto [first, is_new] = folders.emplace(scene_id, entry);
+    if (!is_new)
+      fail(entry, "is scene " + std::to_string(scene_id) + ", as is " + first->second.string());
+  }
+  return folders;
+}
+
+std::map<int, fs::path> depth_images(const fs::path& scene) {
+  std::map<int, fs::path> images;
+  for (const fs::path& entry : entries_of(scene / "depth")) {
+    const int im_id = number_of(entry.stem().string());
+    if (im_id >= 0 && entry.extension() == ".png") images.emplace(im_id, entry);
+  }
+  return images;
+}
+
+std::string image_name(int im_id) { return "image " + std::to_string(im_id); }
+
+/// The visible fractions of an image's instances, as many as there are instances.
+std::vector<double> read_visible(const std::map<int, json>& infos, const fs::path& file, int im_id,
+                                 std::size_t count) {
+  const auto image = infos.find(im_id);
+  const std::size_t given = image == infos.end() ? 0 : image->second.size();
+  if (given != count)
+    fail(file, image_name(im_id) + " has " + std::to_string(given) +
+                   " instances, the file of poses " + std::to_string(count));
+  return located(file, image_name(im_id), [&] {
+    std::vector<double> visible;
+    for (const json& info : image->second) visible.push_back(info.at("visib_fract").get<double>());
+    return visible;
+  });
+}
+
+void read_images(const ImageFolders& names, const fs::path& scene, int scene_id,
+                 GroundTruth& truth) {
+  const std::map<int, fs::path> depth = depth_images(scene);
+  const fs::path camera_file = scene / names.cameras;
+  if (!fs::exists(camera_file)) {
+    if (!depth.empty()) fail(camera_file, "is missing: the depth images have no camera");
+    return;
+  }
+  for (const auto& [im_id, entry] : by_image(names, camera_file)) {
+    const auto image = truth.images.find({scene_id, im_id});
+    if (image == truth.images.end()) continue;
+    image->second.camera = located(camera_file, image_name(im_id),
+                                   [&, &values = entry] { return read_camera(values); });
+  }
+  for (const auto& [im_id, path] : depth) {
+    const auto image = truth.images.find({scene_id, im_id});
+    if (image == truth.images.end())
+      truth.left_out.emplace(scene_id, im_id);
+    else if (image->second.camera)
+      image->second.depth = path;
+    else
+      fail(camera_file, "has no camera of " + image_name(im_id) + ", whose poses and depth exist");
+  }
+}
+
+void read_scene(const ImageFolders& names, const fs::path& scene, int scene_id,
+                GroundTruth& truth) {
+  const fs::path gt_file = scene / names.poses;
+  const fs::path info_file = names.visibility ? scene / names.visibility : fs::path();
+  const bool has_info = names.visibility && fs::exists(info_file);
+  const std::map<int, json> infos = has_info ? by_image(names, info_file) : std::map<int, json>();
+  for (const auto& [im_id, entries] : by_image(names, gt_file)) {
+    truth.images[{scene_id, im_id}];
+    std::vector<double> visible;
+    if (has_info) visible = read_visible(infos, info_file, im_id, entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      TrueInstance instance =
+          located(gt_file, image_name(im_id) + ", instance " + std::to_string(i),
+                  [&, &list = entries] { return read_instance(list.at(i)); });
+      instance.scene_id = scene_id;
+      instance.im_id = im_id;
+      if (has_info) instance.visible = visible[i];
+      truth.instances.push_back(instance);
+    }
+  }
+  read_images(names, scene, scene_id, truth);
+}
+
+void read_objects(const ImageFolders& names, const fs::path& folder, GroundTruth& truth) {
+  const fs::path file = folder / names.models_info;
+  const json infos = names.read(file);
+  for (const auto& item : infos.items()) {
+    const int obj_id = number_of(item.key());
+    if (obj_id < 0) fail(file, "'" + item.key() + "' is no obj_id");
+    truth.objects[obj_id] =
+        located(file, "object " + item.key(), [&] { return read_object(item.value()); });
+  }
+  for (const TrueInstance& instance : truth.instances)
+    if (!truth.objects.contains(instance.obj_id))
+      fail(file, "has no object " + std::to_string(instance.obj_id) + ", which scene " +
+                     std::to_string(instance.scene_id) + " holds");
+}
+
+}  // namespace
+
+bool has_scene_files(const ImageFolders& names, const fs::path& dataset, const std::string& split) {
+  for (const fs::path& entry : entries_of(dataset / split))
+    if (number_of(entry.filename().string()) >= 0 &&
+        (fs::exists(entry / names.poses) || fs::exists(entry / names.cameras)))
+      return true;
+  return false;
+}
+
+std::vector<SceneFile> list_images(const ImageFolders& names, const fs::path& dataset,
+                                   const std::string& split) {
+  if (!fs::is_directory(dataset / split)) fail(dataset / split, "no such folder");
+  std::vector<SceneFile> scenes;
+  for (const auto& [scene_id, folder] : scene_folders(dataset / split)) {
+    const fs::path camera_file = folder / names.cameras;
+    const std::map<int, json> cameras = by_image(names, camera_file);
+    for (const auto& [im_id, path] : depth_images(folder)) {
+      const auto entry = cameras.find(im_id);
+      if (entry == cameras.end()) fail(camera_file, image_name(im_id) + ": has no camera");
+      const Camera camera =
+          located(camera_file, image_name(im_id), [&] { return read_camera(entry->second); });
+      scenes.push_back({path, scene_id, im_id, camera});
+    }
+  }
+  if (scenes.empty()) fail(dataset / split, "no depth image, expected SCENE/depth/IMAGE.png in it");
+  return scenes;
+}
+
+std::vector<fs::path> list_model_files(const fs::path& dataset) {
+  const fs::path folder = dataset / "models";
+  std::vector<fs::path> files;
+  for (const fs::path& entry : entries_of(folder))
+    if (entry.extension() == ".ply") files.push_back(entry);
+  if (files.empty()) fail(folder, "no model in it, expected obj_NNNNNN.ply");
+  return files;
+}
+
+GroundTruth read_truth(const ImageFolders& names, const fs::path& dataset,
+                       const std::string& split) {
+  const fs::path root = dataset / split;
+  if (!fs::is_directory(root)) fail(root, "no such folder");
+  GroundTruth truth;
+  for (const auto& [scene_id, folder] : scene_folders(root))
+    read_scene(names, folder, scene_id, truth);
+  if (truth.instances.empty())
+    fail(root, std::string("no true pose in it, expected SCENE/") + names.poses);
+  read_objects(names, dataset / "models", truth);
+  return truth;
+}
+
+}  // namespace posevote::dataset

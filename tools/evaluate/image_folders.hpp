@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What BOP and SIXD 2017 have in common: `SPLIT/SCENE/depth/IMAGE.png`, one file of poses and one
+// of cameras a scene, `models/obj_N.ply` and one file that describes the models. They differ in
+// file names and in how the files are written.
+#pragma once
+
+#include "tools/evaluate/dataset.hpp"
+
+namespace posevote::dataset {
+
+struct ImageFolders {
+  const char *poses, *cameras, *visibility;  ///< files of a scene; visibility may be null
+  const char* models_info;
+  nlohmann::json (*read)(const std::filesystem::path& file);
+};
+
+bool has_scene_files(const ImageFolders& names, const std::filesystem::path& dataset,
+                     const std::string& split);
+std::vector<SceneFile> list_images(const ImageFolders& names, const std::filesystem::path& dataset,
+                                   const std::string& split);
+std::vector<std::filesystem::path> list_model_files(const std::filesystem::path& dataset);
+GroundTruth read_truth(const ImageFolders& names, const std::filesystem::path& dataset,
+                       const std::string& split);
+
+}  // namespace posevote::dataset
