@@ -48,19 +48,18 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
   return best;
 }
 
-std::vector<PoseMode> separate_modes(const VoteSet& votes, const std::vector<std::uint32_t>& best,
+std::vector<PoseMode> separate_modes(const std::vector<PoseMode>& modes,
                                      const std::vector<Eigen::Vector3f>& taken, float radius,
                                      std::size_t count) {
-  std::vector<PoseMode> modes;
-  for (const std::uint32_t vote : best) {
-    if (modes.size() == count) break;
-    const PoseMode mode = vote_pose(votes, vote);
+  std::vector<PoseMode> kept;
+  for (const PoseMode& mode : modes) {
+    if (kept.size() == count) break;
     const bool clear = std::all_of(taken.begin(), taken.end(), [&](const Eigen::Vector3f& other) {
       return (mode.center - other).norm() > radius;
     });
-    if (clear && !is_suppressed(mode, modes, radius)) modes.push_back(mode);
+    if (clear && !is_suppressed(mode, kept, radius)) kept.push_back(mode);
   }
-  return modes;
+  return kept;
 }
 
 double runner_up_density(const VoteSet& votes, const std::vector<double>& density,

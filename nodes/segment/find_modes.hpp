@@ -32,10 +32,10 @@ PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote);
 std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,
                                       double min_density);
 
-/// Non-maximum suppression: the first `count` of `votes` whose centres lie farther than `radius`
+/// Non-maximum suppression: the first `count` of `modes` whose centres lie farther than `radius`
 /// from every centre in `taken`, and from each other unless their rotations differ by more than 60
 /// deg; at most three near one place.
-std::vector<PoseMode> separate_modes(const VoteSet& votes, const std::vector<std::uint32_t>& best,
+std::vector<PoseMode> separate_modes(const std::vector<PoseMode>& modes,
                                      const std::vector<Eigen::Vector3f>& taken, float radius,
                                      std::size_t count);
 

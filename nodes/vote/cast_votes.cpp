@@ -30,6 +30,7 @@
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/votes.hpp"
+#include "nodes/vote/splitmix64.hpp"
 
 namespace posevote {
 namespace {
@@ -48,14 +49,6 @@ struct OrientedPoint {
 OrientedPoint oriented_point(const FeatureSet& features, std::uint32_t i) {
   const Eigen::Vector3d normal = features.normals.row(i).transpose().cast<double>();
   return {features.points.row(i).transpose().cast<double>(), normal / normal.norm()};
-}
-
-/// Vigna's splitmix64: a bijection whose output bits all depend on all input bits.
-std::uint64_t splitmix64(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15U;
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31U);
 }
 
 /// Where the circle of a correspondence starts, in [0, 2 pi).

@@ -7,7 +7,7 @@
 namespace posevote {
 namespace {
 
-const std::vector<Method> kMethods = {{"posevote", "recognize"}};
+const std::vector<Method> kMethods = {{"posevote", "recognize"}, {"ransac", "ransac"}};
 
 }  // namespace
 

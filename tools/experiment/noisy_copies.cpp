@@ -30,16 +30,16 @@ Cloud displaced(const Cloud& model, double most, const Eigen::Isometry3d& pose, 
 
 }  // namespace
 
-std::vector<NoisyCopy> make_noisy_copies(const Cloud& model, const fs::path& folder, int levels,
-                                         int step, int seeds) {
+std::vector<NoisyCopy> make_noisy_copies(const Cloud& model, const fs::path& folder,
+                                         const std::vector<int>& levels, int seeds) {
   const double diagonal =
       (model.points.colwise().maxCoeff() - model.points.colwise().minCoeff()).norm();
   fs::create_directories(folder);
   std::vector<NoisyCopy> copies;
-  for (int level = step; level <= levels; level += step)
+  for (const int level : levels)
     for (int seed = 1; seed <= seeds; ++seed) {
       char name[40];
-      std::snprintf(name, sizeof name, "noise_%02d_seed_%02d.ply", level, seed);
+      std::snprintf(name, sizeof name, "noise_%03d_seed_%02d.ply", level, seed);
       NoisyCopy copy{level * 1e-3, seed, Eigen::Isometry3d::Identity(), folder / name};
       Random random(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(level));
       copy.T_scene_model = random_pose(random);

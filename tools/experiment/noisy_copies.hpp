@@ -19,9 +19,9 @@ struct NoisyCopy {
   std::filesystem::path file;
 };
 
-/// Copies at noise 0.1 % ... `levels` x 0.1 %, every `step`-th of these, `seeds` of each, in the
-/// order in which a run over `folder` reads them. Writes the files that are not there yet.
+/// Copies at each of `levels` (ascending, in 0.1 % of the diagonal), `seeds` of each, in the order
+/// in which a run over `folder` reads them. Writes the files that are not there yet.
 std::vector<NoisyCopy> make_noisy_copies(const Cloud& model, const std::filesystem::path& folder,
-                                         int levels, int step, int seeds);
+                                         const std::vector<int>& levels, int seeds);
 
 }  // namespace posevote

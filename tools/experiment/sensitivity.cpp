@@ -22,6 +22,7 @@
 #include "tools/experiment/correspondence_quality.hpp"
 #include "tools/experiment/experiment.hpp"
 #include "tools/experiment/noisy_copies.hpp"
+#include "tools/plot/line_chart.hpp"
 #include "tools/simulate/shapes.hpp"
 
 namespace posevote {
@@ -37,6 +38,15 @@ struct Errors {
   double deg = std::numeric_limits<double>::infinity();
   bool right() const { return mm <= kRight && deg <= kRight; }
 };
+
+/// The paper's, then on until everything fails [0.1 % of the diagonal].
+std::vector<int> noise_levels(bool quick) {
+  if (quick) return {10, 20, 30};
+  std::vector<int> levels;
+  for (int level = 1; level <= 30; ++level) levels.push_back(level);
+  levels.insert(levels.end(), {35, 40, 45, 50, 60, 70, 80, 100});
+  return levels;
+}
 
 /// One line of the table: all copies of one noise level.
 struct Level {
@@ -196,6 +206,43 @@ void write_csv(const fs::path& file, const std::vector<Level>& levels,
   if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
 }
 
+plot::Chart chart_over_noise(const std::string& title, const std::string& unit) {
+  plot::Chart chart;
+  chart.title = title;
+  chart.x_label = "noise [% of the diagonal]";
+  chart.y_label = unit;
+  return chart;
+}
+
+/// The three panels of the paper's figure 4.
+void write_charts(const fs::path& file, const std::vector<Level>& levels,
+                  const std::vector<Method>& methods) {
+  const auto chart = [&](const char* title, const char* unit, double Errors::*value) {
+    plot::Chart panel = chart_over_noise(title, unit);
+    for (const Method& method : methods) {
+      plot::Series series{method.name, {}, {}};
+      for (const Level& level : levels) {
+        series.x.push_back(100 * level.noise);
+        series.y.push_back(mean_of(level.errors.at(method.name), value));
+      }
+      panel.series.push_back(std::move(series));
+    }
+    return panel;
+  };
+  plot::Chart rates = chart_over_noise("correspondences and normals", "[%], [deg]");
+  rates.series = {{"inliers [%]", {}, {}}, {"normals' error [deg]", {}, {}}};
+  for (const Level& level : levels) {
+    for (plot::Series& series : rates.series) series.x.push_back(100 * level.noise);
+    rates.series[0].y.push_back(100 * level.inlier_rate);
+    rates.series[1].y.push_back(level.normal_deg);
+  }
+  std::ofstream stream(file);
+  stream << plot::to_svg({chart("translation error", "[mm]", &Errors::mm),
+                          chart("rotation error", "[deg]", &Errors::deg), rates});
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
+}
+
 }  // namespace
 
 int sensitivity_experiment(const ExperimentCommand& command, const fs::path& out,
@@ -204,9 +251,8 @@ int sensitivity_experiment(const ExperimentCommand& command, const fs::path& out
       command.methods.empty() ? std::vector<std::string>{"posevote", "ransac"} : command.methods);
   fs::create_directories(out);
   const Subject subject = find_subject(command.dataset, out);
-  const int levels = 30, step = command.quick ? 10 : 1, seeds = command.quick ? 1 : 10;
-  const std::vector<NoisyCopy> copies =
-      make_noisy_copies(subject.mesh, out / "scans", levels, step, seeds);
+  const std::vector<NoisyCopy> copies = make_noisy_copies(
+      subject.mesh, out / "scans", noise_levels(command.quick), command.quick ? 1 : 10);
 
   std::map<std::string, std::vector<Errors>> errors;
   for (const Method& method : methods) {
@@ -226,6 +272,8 @@ int sensitivity_experiment(const ExperimentCommand& command, const fs::path& out
   print_table(table, methods);
   print_summary(table, methods);
   write_csv(out / "sensitivity.csv", table, methods);
+  write_charts(out / "sensitivity.svg", table, methods);
+  std::printf("wrote %s\n", (out / "sensitivity.{csv,svg}").c_str());
   return 0;
 }
 

@@ -20,6 +20,12 @@ VoteSet votes_at(const std::vector<float>& x) {
   return votes;
 }
 
+std::vector<PoseMode> modes_of(const VoteSet& votes) {
+  std::vector<PoseMode> modes;
+  for (std::uint32_t v = 0; v < votes.tx.size(); ++v) modes.push_back(vote_pose(votes, v));
+  return modes;
+}
+
 const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 }  // namespace
@@ -36,7 +42,7 @@ TEST_CASE("of equal votes the first is the best", "[segment]") {
 TEST_CASE("no votes have no modes", "[segment]") {
   CHECK(best_votes(VoteSet{}, {}, 0).empty());
   CHECK(best_votes(votes_at({}), {}, 0).empty());
-  CHECK(separate_modes(votes_at({}), {}, {}, 1.0F, 9).empty());
+  CHECK(separate_modes({}, {}, 1.0F, 9).empty());
   CHECK(runner_up_density(votes_at({}), {}, kOrigin, 1.0F) == 0);
 }
 
@@ -47,11 +53,10 @@ TEST_CASE("votes below the threshold are no modes", "[segment]") {
 }
 
 TEST_CASE("non-maximum suppression leaves out what lies within the radius", "[segment]") {
-  const VoteSet votes = votes_at({0, 0.5F, 1.5F, 3});
-  const std::vector<std::uint32_t> best{0, 1, 2, 3};
+  const std::vector<PoseMode> best = modes_of(votes_at({0, 0.5F, 1.5F, 3}));
   const auto places = [&](const std::vector<Eigen::Vector3f>& taken, float radius) {
     std::vector<float> x;
-    for (const PoseMode& mode : separate_modes(votes, best, taken, radius, 9))
+    for (const PoseMode& mode : separate_modes(best, taken, radius, 9))
       x.push_back(mode.center.x());
     return x;
   };
@@ -60,7 +65,7 @@ TEST_CASE("non-maximum suppression leaves out what lies within the radius", "[se
   CHECK(places({}, 0.1F) == std::vector<float>{0, 0.5F, 1.5F, 3});
   CHECK(places({{0, 0, 0}}, 1.0F) == std::vector<float>{1.5F, 3});
   CHECK(places({{0, 0, 0}, {3, 0, 0}}, 1.5F).empty());
-  CHECK(separate_modes(votes, best, {}, 0.1F, 2).size() == 2);
+  CHECK(separate_modes(best, {}, 0.1F, 2).size() == 2);
 }
 
 TEST_CASE("a place may be judged in three quite different rotations", "[segment]") {
@@ -72,12 +77,12 @@ TEST_CASE("a place may be judged in three quite different rotations", "[segment]
     votes.qw[v] = sign * std::cos(half);
     votes.qz[v] = sign * std::sin(half);
   }
-  const std::vector<PoseMode> modes = separate_modes(votes, {0, 1, 2, 3, 4, 5}, {}, 1.0F, 9);
+  const std::vector<PoseMode> modes = separate_modes(modes_of(votes), {}, 1.0F, 9);
   REQUIRE(modes.size() == 3);
   CHECK(modes[0].rotation.w() == votes.qw[0]);
   CHECK(modes[1].rotation.w() == votes.qw[2]);
   CHECK(modes[2].rotation.w() == votes.qw[4]);
-  CHECK(separate_modes(votes, {0, 1, 2, 3, 4, 5}, {{0, 0, 0}}, 1.0F, 9).empty());
+  CHECK(separate_modes(modes_of(votes), {{0, 0, 0}}, 1.0F, 9).empty());
 }
 
 TEST_CASE("the runner-up is the densest vote elsewhere", "[segment]") {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <catch2/catch.hpp>
+
+#include "nodes/data/detections.hpp"
+#include "nodes/data/hypotheses.hpp"
+#include "tests/support/bumpy_scene.hpp"
+#include "tests/support/run_node.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+const Placed kLeft{1, pose(-0.08, 0.01, 0.8, 0.7)};
+const Placed kRight{1, pose(0.09, -0.02, 0.75, 2.5)};
+
+Hypothesis beside(const Placed& body, double metres, double support) {
+  Eigen::Isometry3d T = body.T_scene_model;
+  T.translation().x() += metres;
+  return {T, support};
+}
+
+using Values = std::map<std::string, std::string>;
+
+std::vector<Detection> segment(const std::vector<Hypothesis>& hypotheses, const Values& values) {
+  PerObject<Hypotheses> objects;
+  objects.slots = {std::make_shared<Hypotheses>(Hypotheses{bumpy_model(1), hypotheses})};
+  const Cloud scan = scan_of({kLeft, kRight});
+  return run_node<Detections>("segment_hypotheses", values, objects, features_of(scan), scan,
+                              Scale{kResolution})
+      .items;
+}
+
+double shift(const Detection& found, const Placed& body) {
+  return (found.T_scene_model.translation() - body.T_scene_model.translation()).norm();
+}
+
+}  // namespace
+
+TEST_CASE("segment_hypotheses judges by the scan, not by support", "[segment]") {
+  const auto found = segment({beside(kLeft, 0.4, 90), beside(kRight, 0.004, 20)}, {});
+  REQUIRE(found.size() == 1);
+  CHECK(shift(found[0], kRight) < 0.002);  // after ICP
+  CHECK(found[0].density == 20);
+  CHECK(found[0].runner_up_density == 90);
+  CHECK(found[0].score > 0.5);
+}
+
+TEST_CASE("segment_hypotheses finds every instance once", "[segment]") {
+  const auto found = segment({beside(kLeft, 0, 30), beside(kLeft, 0.005, 29), beside(kRight, 0, 8),
+                              beside(kRight, 0.3, 7)},
+                             {{"max_instances", "5"}});
+  REQUIRE(found.size() == 2);
+  CHECK(std::min(shift(found[0], kLeft), shift(found[1], kLeft)) < 0.002);
+  CHECK(std::min(shift(found[0], kRight), shift(found[1], kRight)) < 0.002);
+}
+
+TEST_CASE("segment_hypotheses of nothing is nothing", "[segment]") {
+  CHECK(segment({}, {}).empty());
+  CHECK(segment({beside(kLeft, 0, 5)}, {{"min_density", "6"}}).empty());
+}
