@@ -66,6 +66,24 @@ TEST_CASE("a turn by a symmetry is no error, any other is", "[evaluate]") {
         Approx(std::sqrt(2) * std::hypot(0.1, 0.05)));
 }
 
+TEST_CASE("ADI is the mean distance to the closest point, by brute force", "[evaluate]") {
+  TrueObject object = box(0.2, 0.1, 0.05);
+  object.symmetries.push_back(at(0, 0, 0, M_PI));
+  object.points.resize(900, 3);
+  object.points.setRandom();
+  object.points *= 0.1F;
+  object.diameter = 0.34;
+  for (const double shift : {0.001, 0.05, 0.3}) {
+    const Eigen::Isometry3d a = at(0, 0, 1), b = at(shift, 0, 1.01, 0.7);
+    const Eigen::Matrix3Xd points = object.points.transpose().cast<double>();
+    const Eigen::Matrix3Xd found = b * points;
+    double sum = 0;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      sum += (found.colwise() - a * points.col(i)).colwise().norm().minCoeff();
+    CHECK(PoseMeter(object).add(a, b) == Approx(sum / 900).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("a continuous symmetry turns in 315 steps about its own axis", "[evaluate]") {
   TrueObject object = box(0.2, 0.2, 0.05);
   object.axes.push_back({Eigen::Vector3d::UnitZ(), Eigen::Vector3d(0.01, 0, 0)});

@@ -11,22 +11,23 @@
 namespace posevote {
 namespace {
 
-constexpr Eigen::Index kMostPoints = 1000;
+constexpr Eigen::Index kMostPoints = 1000, kFewPoints = 200;
 
-Eigen::Matrix3Xd sample_of(const PointMatrix& points) {
-  const Eigen::Index count = std::min(points.rows(), kMostPoints);
+Eigen::Matrix3Xd sample_of(const PointMatrix& points, Eigen::Index most) {
+  const Eigen::Index count = std::min(points.rows(), most);
   Eigen::Matrix3Xd sample(3, count);
   for (Eigen::Index i = 0; i < count; ++i)
     sample.col(i) = points.row(i * points.rows() / count).transpose().cast<double>();
   return sample;
 }
 
-/// Distance to the nearest point, found in growing balls.
-double nearest_distance(const PointGrid& grid, const Eigen::Vector3d& point, double diameter) {
-  for (const double radius : {0.03, 0.1, 0.3, 1.0, 5.0})
-    if (const auto near = grid.nearest(point.cast<float>(), static_cast<float>(radius * diameter)))
-      return std::sqrt(double{near->squared});
-  return kBeyond;
+/// Distance to the nearest point. `some` are points too: the nearest of them bounds the search to a
+/// ball that holds few others.
+double nearest_distance(const PointGrid& grid, const Eigen::Matrix3Xd& some,
+                        const Eigen::Vector3d& point) {
+  const double bound = std::sqrt((some.colwise() - point).colwise().squaredNorm().minCoeff());
+  const auto near = grid.nearest(point.cast<float>(), static_cast<float>(1.00001 * bound));
+  return near ? std::sqrt(double{near->squared}) : bound;
 }
 
 double farthest(const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& A,
@@ -67,7 +68,8 @@ std::vector<Eigen::Isometry3d> symmetry_steps(const TrueObject& object) {
 
 PoseMeter::PoseMeter(const TrueObject& object)
     : object_(&object),
-      sample_(sample_of(object.points)),
+      sample_(sample_of(object.points, kMostPoints)),
+      few_(sample_of(object.points, kFewPoints)),
       extreme_(extreme_points(object.points)),
       all_(object.points.transpose().cast<double>()),
       steps_(symmetry_steps(object)),
@@ -97,7 +99,7 @@ double PoseMeter::add(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& 
   const Eigen::Isometry3d T_found_true = T_found.inverse() * T_true;
   double sum = 0;
   for (Eigen::Index i = 0; i < sample_.cols(); ++i)
-    sum += nearest_distance(grid_, T_found_true * sample_.col(i), object_->diameter);
+    sum += nearest_distance(grid_, few_, T_found_true * sample_.col(i));
   return sum / static_cast<double>(sample_.cols());
 }
 

@@ -43,7 +43,7 @@ class PoseMeter {
   double least_over_symmetries(const Measure& measure) const;
 
   const TrueObject* object_;
-  Eigen::Matrix3Xd sample_, extreme_, all_;
+  Eigen::Matrix3Xd sample_, few_, extreme_, all_;
   std::vector<Eigen::Isometry3d> steps_;
   PointGrid grid_;
 };
