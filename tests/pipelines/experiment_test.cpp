@@ -26,6 +26,27 @@ TEST_CASE("experiment sensitivity --quick: right under noise, and resumes", "[ex
   CHECK(read_text(folder / "out/sensitivity.csv") == csv);
 }
 
+TEST_CASE("experiment uwa: methods side by side on a set with true poses", "[experiment]") {
+  const TemporaryFolder folder;
+  const std::string spec =
+      folder.write("spec.yaml",
+                   "models: [{shape: kettle, size: 0.2}]\n"
+                   "scenes: [{count: 2, table: false, sensor: rgbd, objects: [1], clutter: 1}]\n");
+  REQUIRE(run_posevote(folder, "simulate " + spec + " --out " + (folder / "d").string()).status ==
+          0);
+  const CommandResult result =
+      run_posevote(folder, "experiment uwa --methods posevote ransac --dataset " +
+                               (folder / "d").string() + " --out " + (folder / "out").string());
+  INFO(result.output);
+  REQUIRE(result.status == 0);
+  CHECK(std::regex_search(result.output, std::regex("posevote +1.000 +1.000 +1.000 +1.000")));
+  CHECK(std::regex_search(result.output, std::regex("ransac +[01]")));
+  CHECK(read_text(folder / "out/uwa.csv").find("posevote,pose,2,2,2,1,1,1,1,") !=
+        std::string::npos);
+  CHECK(read_text(folder / "out/uwa.svg").find("</svg>") != std::string::npos);
+  CHECK(fs::exists(folder / "out/ransac/evaluation/evaluation.json"));
+}
+
 TEST_CASE("experiment refuses what it cannot do", "[experiment]") {
   const TemporaryFolder folder;
   CHECK(run_posevote(folder, "experiment cooking").status == 2);

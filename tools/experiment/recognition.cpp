@@ -63,11 +63,14 @@ fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
   if (!command.dataset.empty()) return command.dataset;
   fs::path dataset = out / "replica";
   if (fs::exists(dataset)) return dataset;
+  const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + command.name + "_scenes.yaml";
+  if (!fs::exists(spec))
+    throw std::invalid_argument("there is no replica of " + command.name +
+                                " yet; expected --dataset DIR");
   const fs::path unfinished = out / "replica.unfinished";
   fs::remove_all(unfinished);
   spdlog::info("no --dataset: making the replica");
-  simulate(std::string(POSEVOTE_SOURCE_DIR "/configs/") + command.name + "_scenes.yaml",
-           unfinished);
+  simulate(spec, unfinished, command.quick ? find_protocol(command.name).quick_step : 1);
   fs::rename(unfinished, dataset);
   return dataset;
 }
@@ -218,7 +221,9 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
   fs::create_directories(out);
   const fs::path dataset = find_dataset(command, out);
   const std::string split = "test";
-  const std::string shard = command.quick ? "1/" + std::to_string(protocol.quick_step) : "";
+  const bool replica = command.dataset.empty();  // a quick one is small as it is
+  const std::string shard =
+      command.quick && !replica ? "1/" + std::to_string(protocol.quick_step) : "";
   GroundTruth truth = read_ground_truth(dataset, split);
   keep_shard(dataset, split, shard, truth);
 
@@ -235,7 +240,6 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
                     seconds_per_image(out / method.name / "results.json")});
     write_evaluation(rows.back().evaluation, out / method.name / "evaluation");
   }
-  const bool replica = command.dataset.empty();
   std::printf("\n%s\n", replica ? "A replica, made by posevote simulate, not the published set."
                                 : dataset.c_str());
   print_table(rows);

@@ -44,19 +44,19 @@ std::vector<Body> arrange(const SceneSpec& scene, const Meshes& models, Random& 
   for (std::size_t i = bodies.size(); i > 1; --i)
     std::swap(bodies[i - 1], bodies[random.next() % i]);
   drop_bodies(bodies, scene.radius, random);
-  bodies.push_back(make_table(kTableSide));
+  if (scene.table) bodies.push_back(make_table(kTableSide));
   return bodies;
 }
 
 }  // namespace
 
-void simulate(const std::string& spec_file, const std::filesystem::path& out) {
+void simulate(const std::string& spec_file, const std::filesystem::path& out, std::size_t step) {
   const Spec spec = read_spec(spec_file);
   BopWriter writer(out);
   const Meshes models = make_models(spec);
   for (std::size_t i = 0; i < models.size(); ++i)
     writer.add_model(static_cast<int>(i) + 1, *models[i]);
-  for (std::size_t i = 0; i < spec.scenes.size(); ++i) {
+  for (std::size_t i = 0; i < spec.scenes.size(); i += step) {
     const SceneSpec& scene = spec.scenes[i];
     Random random(static_cast<std::uint64_t>(spec.seed), i);
     const std::vector<Body> bodies = arrange(scene, models, random);

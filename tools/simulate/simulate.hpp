@@ -10,7 +10,7 @@ namespace posevote {
 /// in metres: what configs/demo_scenes.yaml describes, for example. The same file gives the same
 /// bytes, at any number of threads. Throws graph::ConfigError for problems of the file,
 /// std::invalid_argument where `out` is not empty and std::runtime_error where it cannot be
-/// written.
-void simulate(const std::string& spec_file, const std::filesystem::path& out);
+/// written. `step`: only every so manieth image.
+void simulate(const std::string& spec_file, const std::filesystem::path& out, std::size_t step = 1);
 
 }  // namespace posevote

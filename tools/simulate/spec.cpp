@@ -31,6 +31,9 @@ const std::vector<ParamSpec>& model_params() {
 
 const std::vector<ParamSpec>& scene_params() {
   static const std::vector<ParamSpec> params{
+      make_param("count", &SceneSpec::count, "", "Images of this kind.", in_range(1, 10000)),
+      make_param("table", &SceneSpec::table, "", "Whether the sensor sees the table.",
+                 graph::anything()),
       make_param("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
       make_param("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
       make_param("radius", &SceneSpec::radius, "m", "Bodies drop inside.", in_range(0.01, 1)),
@@ -155,11 +158,14 @@ Spec read_root(Reader& reader, const YAML::Node& root) {
     if (item.IsMap() && !item["shape"].IsDefined())
       reader.report(item, subject + ".shape", "missing");
   }
+  int number = 0;
   for (const YAML::Node& item : reader.list(root, "", "scenes")) {
-    const std::string subject = "scenes[" + std::to_string(spec.scenes.size() + 1) + "]";
-    SceneSpec& scene = spec.scenes.emplace_back();
+    const std::string subject = "scenes[" + std::to_string(++number) + "]";
+    SceneSpec scene;
     reader.read_map(item, subject, scene_params(), &scene, {"objects"});
     read_objects(reader, item, subject, spec.models.size(), scene);
+    spec.scenes.insert(spec.scenes.end(), static_cast<std::size_t>(std::max(1, scene.count)),
+                       scene);
   }
   return spec;
 }

@@ -13,8 +13,10 @@ struct ModelSpec {
   double size = 0.2;  ///< longest side of the bounding box [m]
 };
 
-/// One image.
+/// One image, or several of a kind.
 struct SceneSpec {
+  int count = 1;  ///< images, each with another arrangement of its bodies
+  bool table = true;
   std::string sensor = "laser";
   std::vector<int> objects;  ///< obj_id of each instance
   int clutter = 3;           ///< bodies that are no models
@@ -27,7 +29,7 @@ struct SceneSpec {
 struct Spec {
   int seed = 1;
   std::vector<ModelSpec> models;  ///< obj_id 1, 2 ...
-  std::vector<SceneSpec> scenes;
+  std::vector<SceneSpec> scenes;  ///< one an image: those of a kind are repeated
 };
 
 /// Throws graph::ConfigError with every problem of the file and its place.
