@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/describe/pcl_surface.hpp"
 
+#include <pcl/features/shot_lrf.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
+
+#include <algorithm>
 
 #include "graph/parallel.hpp"
-#include "nodes/describe/feature_set.hpp"
 
 namespace posevote {
+namespace {
+
+/// Estimations switch the sorting of a tree on; done once here, sharing it is only reading it.
+class SharedTree : public pcl::search::KdTree<pcl::PointXYZ> {
+ public:
+  SharedTree() : KdTree(true) {}
+  void setSortedResults(bool /*sorted*/) override {}
+};
+
+}  // namespace
 
 PclSurface make_pcl_surface(const Cloud& cloud) {
   PclSurface surface;
@@ -21,30 +34,82 @@ PclSurface make_pcl_surface(const Cloud& cloud) {
     surface.row_of[i] = static_cast<int>(surface.points->size());
     surface.points->emplace_back(cloud.points(point, 0), cloud.points(point, 1),
                                  cloud.points(point, 2));
-    surface.normals->emplace_back(cloud.normals(point, 0), cloud.normals(point, 1),
-                                  cloud.normals(point, 2));
+    // PCL's spin images throw at a normal that is not of unit length to the last digits.
+    const Eigen::Vector3f normal = cloud.normals.row(point).transpose().normalized();
+    surface.normals->emplace_back(normal.x(), normal.y(), normal.z());
   }
   return surface;
 }
 
-Describable select_describable(const PclSurface& surface, const PointGrid& grid,
-                               const FeaturePoints& points, float radius, int min_neighbours) {
-  std::vector<char> enough(points.indices.size(), 0);
+PclSupport::PclSupport(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
+                       double radius, int min_neighbours)
+    : support_(cloud, points, scale, radius), surface_(make_pcl_surface(cloud)) {
+  select(min_neighbours);
+  if (row_.empty()) return;  // PCL builds no tree over nothing
+  tree_ = std::make_shared<SharedTree>();
+  tree_->setInputCloud(surface_.points);
+}
+
+void PclSupport::select(int min_neighbours) {
+  const std::vector<std::uint32_t>& indices = support_.points().indices;
+  std::vector<char> enough(indices.size(), 0);
   graph::parallel_for(enough.size(), 64, [&](std::size_t i) {
-    const int row = surface.row_of[points.indices[i]];
+    const int row = surface_.row_of[indices[i]];
     if (row < 0) return;
     int others = -1;  // the point itself is found too
-    grid.for_each_within((*surface.points)[static_cast<std::size_t>(row)].getVector3fMap(), radius,
-                         [&others](std::uint32_t, float) { ++others; });
+    grid().for_each_within((*surface_.points)[static_cast<std::size_t>(row)].getVector3fMap(),
+                           radius(), [&others](std::uint32_t, float) { ++others; });
     enough[i] = others >= min_neighbours;
   });
-  Describable describable;
   for (std::size_t i = 0; i < enough.size(); ++i) {
     if (!enough[i]) continue;
-    describable.feature.push_back(i);
-    describable.row.push_back(surface.row_of[points.indices[i]]);
+    feature_.push_back(i);
+    row_.push_back(surface_.row_of[indices[i]]);
   }
-  return describable;
+}
+
+void PclSupport::leave_out_unless(const std::vector<char>& usable) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < row_.size(); ++i) {
+    if (!usable[static_cast<std::size_t>(row_[i])]) continue;
+    feature_[kept] = feature_[i];
+    row_[kept++] = row_[i];
+  }
+  feature_.resize(kept);
+  row_.resize(kept);
+}
+
+FeatureSet PclSupport::describe(int length, std::size_t chunk, const Describe& function) const {
+  const std::size_t count = support_.points().indices.size();
+  DescriptorMatrix descriptors(static_cast<Eigen::Index>(count), length);
+  std::vector<char> described(count, 0);
+  const std::size_t chunks = (row_.size() + chunk - 1) / chunk;
+  graph::parallel_for(chunks, 1, [&](std::size_t number) {
+    const std::size_t begin = number * chunk, end = std::min(begin + chunk, row_.size());
+    const auto rows =
+        std::make_shared<const std::vector<int>>(row_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                 row_.begin() + static_cast<std::ptrdiff_t>(end));
+    DescriptorMatrix result(static_cast<Eigen::Index>(rows->size()), length);
+    function(rows, result);
+    for (std::size_t i = begin; i < end; ++i) {
+      descriptors.row(static_cast<Eigen::Index>(feature_[i])) =
+          result.row(static_cast<Eigen::Index>(i - begin));
+      described[feature_[i]] = 1;
+    }
+  });
+  return keep_described(support_.cloud(), support_.points(), descriptors, described);
+}
+
+std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> local_frames(const PclSupport& support,
+                                                                   const PclRows& rows) {
+  pcl::SHOTLocalReferenceFrameEstimation<pcl::PointXYZ, pcl::ReferenceFrame> estimation;
+  estimation.setInputCloud(support.surface().points);
+  estimation.setIndices(rows);
+  estimation.setSearchMethod(support.tree());
+  estimation.setRadiusSearch(static_cast<double>(support.radius()));
+  auto frames = std::make_shared<pcl::PointCloud<pcl::ReferenceFrame>>();
+  estimation.compute(*frames);
+  return frames;
 }
 
 }  // namespace posevote
