@@ -23,11 +23,12 @@ constexpr int kLength = 352;
 
 FeatureSet describe_shot(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                          const Params& params) {
-  const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  support.find_frames();
   return support.describe(kLength, 64, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
     pcl::SHOTEstimation<pcl::PointXYZ, pcl::Normal, pcl::SHOT352> estimation;
     estimation.setInputNormals(support.surface().normals);
-    estimation.setInputReferenceFrames(local_frames(support, rows));
+    estimation.setInputReferenceFrames(support.frames(rows));
     run_estimation<pcl::SHOT352>(
         estimation, support, rows, [](const pcl::SHOT352& shot) { return shot.descriptor; }, out);
   });

@@ -45,14 +45,15 @@ class ShapeContext : public pcl::UniqueShapeContext<pcl::PointXYZ> {
 
 FeatureSet describe_usc(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                         const Params& params) {
-  const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  support.find_frames();
   const auto radius = static_cast<double>(support.radius());
   return support.describe(kLength, 32, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
     ShapeContext estimation;
     estimation.setMinimalRadius(radius / 10);
     estimation.setPointDensityRadius(radius / 5);
     estimation.setLocalRadius(radius);
-    estimation.setInputReferenceFrames(local_frames(support, rows));
+    estimation.setInputReferenceFrames(support.frames(rows));
     run_estimation<pcl::UniqueShapeContext1960>(
         estimation, support, rows,
         [](const pcl::UniqueShapeContext1960& context) { return context.descriptor; }, out);

@@ -79,37 +79,58 @@ void PclSupport::leave_out_unless(const std::vector<char>& usable) {
   row_.resize(kept);
 }
 
+PclRows PclSupport::chunk_of(std::size_t number, std::size_t chunk) const {
+  const auto begin = row_.begin() + static_cast<std::ptrdiff_t>(number * chunk);
+  const auto size =
+      std::min<std::ptrdiff_t>(row_.end() - begin, static_cast<std::ptrdiff_t>(chunk));
+  return std::make_shared<const std::vector<int>>(begin, begin + size);
+}
+
 FeatureSet PclSupport::describe(int length, std::size_t chunk, const Describe& function) const {
   const std::size_t count = support_.points().indices.size();
   DescriptorMatrix descriptors(static_cast<Eigen::Index>(count), length);
   std::vector<char> described(count, 0);
-  const std::size_t chunks = (row_.size() + chunk - 1) / chunk;
-  graph::parallel_for(chunks, 1, [&](std::size_t number) {
-    const std::size_t begin = number * chunk, end = std::min(begin + chunk, row_.size());
-    const auto rows =
-        std::make_shared<const std::vector<int>>(row_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                 row_.begin() + static_cast<std::ptrdiff_t>(end));
+  graph::parallel_for((row_.size() + chunk - 1) / chunk, 1, [&](std::size_t number) {
+    const PclRows rows = chunk_of(number, chunk);
     DescriptorMatrix result(static_cast<Eigen::Index>(rows->size()), length);
     function(rows, result);
-    for (std::size_t i = begin; i < end; ++i) {
-      descriptors.row(static_cast<Eigen::Index>(feature_[i])) =
-          result.row(static_cast<Eigen::Index>(i - begin));
-      described[feature_[i]] = 1;
+    for (std::size_t i = 0; i < rows->size(); ++i) {
+      const std::size_t feature = feature_[number * chunk + i];
+      descriptors.row(static_cast<Eigen::Index>(feature)) =
+          result.row(static_cast<Eigen::Index>(i));
+      described[feature] = 1;
     }
   });
   return keep_described(support_.cloud(), support_.points(), descriptors, described);
 }
 
-std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> local_frames(const PclSupport& support,
-                                                                   const PclRows& rows) {
-  pcl::SHOTLocalReferenceFrameEstimation<pcl::PointXYZ, pcl::ReferenceFrame> estimation;
-  estimation.setInputCloud(support.surface().points);
-  estimation.setIndices(rows);
-  estimation.setSearchMethod(support.tree());
-  estimation.setRadiusSearch(static_cast<double>(support.radius()));
-  auto frames = std::make_shared<pcl::PointCloud<pcl::ReferenceFrame>>();
-  estimation.compute(*frames);
-  return frames;
+void PclSupport::find_frames() {
+  constexpr std::size_t kChunk = 64;
+  frames_ = std::make_shared<pcl::PointCloud<pcl::ReferenceFrame>>();
+  frames_->resize(surface_.points->size());
+  std::vector<char> found(surface_.points->size(), 0);
+  graph::parallel_for((row_.size() + kChunk - 1) / kChunk, 1, [&](std::size_t number) {
+    const PclRows rows = chunk_of(number, kChunk);
+    pcl::SHOTLocalReferenceFrameEstimation<pcl::PointXYZ, pcl::ReferenceFrame> estimation;
+    estimation.setInputCloud(surface_.points);
+    estimation.setIndices(rows);
+    estimation.setSearchMethod(tree_);
+    estimation.setRadiusSearch(static_cast<double>(radius()));
+    pcl::PointCloud<pcl::ReferenceFrame> frames;
+    estimation.compute(frames);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const auto row = static_cast<std::size_t>((*rows)[i]);
+      (*frames_)[row] = frames[i];
+      const Eigen::Map<const Eigen::Array<float, 9, 1>> numbers(frames[i].rf);
+      found[row] = numbers.isFinite().all();
+    }
+  });
+  leave_out_unless(found);
+}
+
+std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> PclSupport::frames(
+    const PclRows& rows) const {
+  return std::make_shared<pcl::PointCloud<pcl::ReferenceFrame>>(*frames_, *rows);
 }
 
 }  // namespace posevote

@@ -67,20 +67,25 @@ class PclSupport {
   /// Leaves out the feature points for which `usable`, a flag per surface point, is not set.
   void leave_out_unless(const std::vector<char>& usable);
 
+  /// Finds SHOT's local reference frames of the feature points and leaves out those that have none.
+  /// PCL's descriptors would find them too, but build a tree anew for that in every chunk, and
+  /// write a line about every missing one.
+  void find_frames();
+  /// Of rows that are described, after find_frames.
+  std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> frames(const PclRows& rows) const;
+
  private:
   void select(int min_neighbours);
+  /// The feature points of chunk `number`.
+  PclRows chunk_of(std::size_t number, std::size_t chunk) const;
 
   Support support_;
   PclSurface surface_;
   std::shared_ptr<pcl::search::Search<pcl::PointXYZ>> tree_;
   std::vector<std::size_t> feature_;  ///< which of the feature points can be described, ascending
   std::vector<int> row_;              ///< its index in the surface
+  std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> frames_;  ///< by index in the surface
 };
-
-/// SHOT's local reference frames; not finite where a point has none. Computed apart, because PCL's
-/// descriptors that need them would build a tree for them anew in every chunk.
-std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> local_frames(const PclSupport& support,
-                                                                   const PclRows& rows);
 
 /// Runs one of PCL's estimations over `rows`; `values(point)` are a descriptor's numbers.
 template <class Point, class Estimation, class Values>
