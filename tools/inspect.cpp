@@ -103,7 +103,8 @@ std::string node_reference() {
   std::string text =
       "# Nodes\n\nMade by `posevote docs` from the registry; do not edit. Lengths in metres; "
       "\"x resolution\" means\nmultiples of the run's voxel edge (`derive_scale`).\n\n";
-  for (const char* folder : {"load", "prepare", "describe", "match", "vote", "segment", "baseline", "write"})
+  for (const char* folder :
+       {"load", "prepare", "describe", "match", "vote", "segment", "baseline", "write"})
     if (folders.contains(folder)) text += "## " + std::string(folder) + "\n\n" + folders[folder];
   text.pop_back();
   return text;

@@ -26,7 +26,7 @@ auto located(const fs::path& file, const std::string& place, const Read& read) {
 }
 
 std::vector<double> numbers(const json& list, std::size_t count, const std::string& name) {
-  const auto values = list.get<std::vector<double>>();
+  auto values = list.get<std::vector<double>>();
   if (values.size() != count)
     throw std::invalid_argument(name + " has " + std::to_string(values.size()) +
                                 " numbers, expected " + std::to_string(count));

@@ -88,8 +88,9 @@ std::vector<Rule> choose_rules(const std::string& list) {
     for (const Rule& rule : all_rules())
       if (rule.name == name) chosen.push_back(rule);
     if (chosen.size() == before)
-      throw std::invalid_argument("--rules: '" + name + "' is no rule, expected some of " + known +
-                                  ", or all");
+      throw std::invalid_argument(
+          "--rules: '" + std::string(name).append("' is no rule, expected all or some of ") +
+          known);
   }
   if (chosen.empty()) throw std::invalid_argument("--rules: expected some of " + known);
   return chosen;

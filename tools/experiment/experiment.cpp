@@ -18,10 +18,9 @@ std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
     const auto found = std::find_if(kMethods.begin(), kMethods.end(),
                                     [&](const Method& method) { return method.name == name; });
     if (found == kMethods.end()) {
-      std::string known;
-      for (const Method& method : kMethods) known.append(" ").append(method.name);
-      throw std::invalid_argument("--methods " + name +
-                                  ": no such method, expected one of:" + known);
+      std::string text = "--methods " + name + ": no such method, expected one of";
+      for (const Method& method : kMethods) text.append(" ").append(method.name);
+      throw std::invalid_argument(text);
     }
     methods.push_back(*found);
   }

@@ -61,7 +61,7 @@ struct Row {
 /// The data set to use; the replica is made where it is not there yet.
 fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
   if (!command.dataset.empty()) return command.dataset;
-  const fs::path dataset = out / "replica";
+  fs::path dataset = out / "replica";
   if (fs::exists(dataset)) return dataset;
   const fs::path unfinished = out / "replica.unfinished";
   fs::remove_all(unfinished);

@@ -45,13 +45,7 @@ class Axis {
   Axis(const Chart& chart, bool is_x)
       : logarithmic_(is_x ? chart.log_x : chart.log_y),
         length_(is_x ? kWidth - kLeft - kRight : kHeight - kTop - kBottom) {
-    const Range& range = is_x ? chart.x_range : chart.y_range;
-    if (range) {
-      low_ = range->first, high_ = range->second;
-    } else {
-      for (const Series& series : chart.series)
-        for (const double value : is_x ? series.x : series.y) include(value);
-    }
+    span(chart, is_x);
     if (!usable(low_) || !usable(high_) || low_ > high_) low_ = logarithmic_ ? 1 : 0, high_ = 10;
     if (low_ == high_) {
       high_ = logarithmic_ ? high_ * 10 : high_ + std::max(1.0, std::abs(high_));
@@ -65,6 +59,15 @@ class Axis {
   std::vector<double> marks() const { return ticks(low_, high_, logarithmic_); }
 
  private:
+  /// What the chart asks for, else what its series span.
+  void span(const Chart& chart, bool is_x) {
+    if (const Range& range = is_x ? chart.x_range : chart.y_range) {
+      low_ = range->first, high_ = range->second;
+      return;
+    }
+    for (const Series& series : chart.series)
+      for (const double value : is_x ? series.x : series.y) include(value);
+  }
   void include(double value) {
     if (!usable(value)) return;
     low_ = std::min(low_, value), high_ = std::max(high_, value);
@@ -165,7 +168,8 @@ std::vector<double> ticks(double low, double high, bool logarithmic) {
   if (logarithmic) {
     const double first = std::ceil(std::log10(low) - 1e-9), last = std::log10(high) + 1e-9;
     const double step = std::max(1.0, std::ceil((last - first) / 8));
-    for (double e = first; e <= last; e += step) marks.push_back(std::pow(10.0, e));
+    for (int i = 0; first + i * step <= last; ++i)
+      marks.push_back(std::pow(10.0, first + i * step));
     return marks;
   }
   const double rough = (high - low) / 5, power = std::pow(10.0, std::floor(std::log10(rough)));

@@ -47,7 +47,9 @@ class HeightField {
       const Eigen::Vector3d low = corners.rowwise().minCoeff(), high = corners.rowwise().maxCoeff();
       for (int y = cell_of(low.y()); y <= cell_of(high.y()); ++y)
         for (int x = cell_of(low.x()); x <= cell_of(high.x()); ++x)
-          visit(static_cast<std::size_t>(y * side_ + x), low.z(), high.z());
+          visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
+                    static_cast<std::size_t>(x),
+                low.z(), high.z());
     }
   }
 

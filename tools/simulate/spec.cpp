@@ -98,7 +98,7 @@ void Reader::read_map(const YAML::Node& map, const std::string& subject,
   std::map<std::string, int> line_of;
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-    const std::string name = subject.empty() ? key : subject + "." + key;
+    const std::string name = subject.empty() ? key : std::string(subject).append(".").append(key);
     const auto [first, is_new] = line_of.emplace(key, entry.first.Mark().line + 1);
     const auto param = std::find_if(params.begin(), params.end(),
                                     [&](const ParamSpec& other) { return other.name == key; });
