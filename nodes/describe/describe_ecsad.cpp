@@ -26,8 +26,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "graph/registry.hpp"
 #include "nodes/describe/feature_set.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -141,17 +141,9 @@ FeatureSet describe_ecsad(const Cloud& cloud, const FeaturePoints& points, const
   });
 }
 
-const auto registered =
-    graph::register_node("describe_ecsad", describe_ecsad,
-                         "ECSAD: mean angles to the normal in cells around it (30 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(1));
+const auto registered = register_descriptor<Params>(
+    "describe_ecsad", describe_ecsad,
+    "ECSAD: mean angles to the normal in cells around it (30 numbers).", 1);
 
 }  // namespace
 }  // namespace posevote

@@ -13,8 +13,8 @@
 #include <pcl/features/fpfh.h>
 
 #include "graph/parallel.hpp"
-#include "graph/registry.hpp"
 #include "nodes/describe/pcl_surface.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -89,16 +89,8 @@ FeatureSet describe_fpfh(const Cloud& cloud, const FeaturePoints& points, const 
 }
 
 const auto registered =
-    graph::register_node("describe_fpfh", describe_fpfh,
-                         "FPFH: averaged histograms of point-pair angles (33 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(2));
+    register_descriptor<Params>("describe_fpfh", describe_fpfh,
+                                "FPFH: averaged histograms of point-pair angles (33 numbers).", 2);
 
 }  // namespace
 }  // namespace posevote

@@ -18,8 +18,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "graph/registry.hpp"
 #include "nodes/describe/feature_set.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -88,17 +88,9 @@ FeatureSet describe_nd_histogram(const Cloud& cloud, const FeaturePoints& points
   });
 }
 
-const auto registered =
-    graph::register_node("describe_nd_histogram", describe_nd_histogram,
-                         "NDHist: distance against the angle between normals (128 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(1));
+const auto registered = register_descriptor<Params>(
+    "describe_nd_histogram", describe_nd_histogram,
+    "NDHist: distance against the angle between normals (128 numbers).", 1);
 
 }  // namespace
 }  // namespace posevote

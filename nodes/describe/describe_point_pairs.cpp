@@ -19,9 +19,9 @@
 // neighbours. Fails if none is left. Time: O(feature points x neighbours).
 //
 //   describe_point_pairs: {in: [cloud, points, scale], out: features, radius: 25}
-#include "graph/registry.hpp"
 #include "nodes/describe/feature_set.hpp"
 #include "nodes/describe/point_pair_histogram.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -62,18 +62,11 @@ FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points,
 }
 
 const auto registered =
-    graph::register_node("describe_point_pairs", describe_point_pairs,
-                         "Point-pair histograms: distance against four angles (240 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
+    register_descriptor<Params>(
+        "describe_point_pairs", describe_point_pairs,
+        "Point-pair histograms: distance against four angles (240 numbers).", 1)
         .param("min_facing", &Params::min_facing, "cosine",
-               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(1));
+               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1));
 
 }  // namespace
 }  // namespace posevote

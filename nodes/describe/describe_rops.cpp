@@ -16,9 +16,9 @@
 //   describe_rops: {in: [cloud, points, scale], out: features, radius: 16}
 #include <pcl/features/rops_estimation.h>
 
-#include "graph/registry.hpp"
 #include "nodes/describe/local_triangles.hpp"
 #include "nodes/describe/pcl_surface.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -54,17 +54,9 @@ FeatureSet describe_rops(const Cloud& cloud, const FeaturePoints& points, const 
   });
 }
 
-const auto registered =
-    graph::register_node("describe_rops", describe_rops,
-                         "RoPS: statistics of rotated projections in a local frame (135 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(3));
+const auto registered = register_descriptor<Params>(
+    "describe_rops", describe_rops,
+    "RoPS: statistics of rotated projections in a local frame (135 numbers).", 3);
 
 }  // namespace
 }  // namespace posevote

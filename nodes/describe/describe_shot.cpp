@@ -8,8 +8,8 @@
 //   describe_shot: {in: [cloud, points, scale], out: features, radius: 20}
 #include <pcl/features/shot.h>
 
-#include "graph/registry.hpp"
 #include "nodes/describe/pcl_surface.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -35,16 +35,8 @@ FeatureSet describe_shot(const Cloud& cloud, const FeaturePoints& points, const 
 }
 
 const auto registered =
-    graph::register_node("describe_shot", describe_shot,
-                         "SHOT: histograms of normals in a local frame (352 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(5));
+    register_descriptor<Params>("describe_shot", describe_shot,
+                                "SHOT: histograms of normals in a local frame (352 numbers).", 5);
 
 }  // namespace
 }  // namespace posevote

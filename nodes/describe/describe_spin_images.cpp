@@ -16,8 +16,8 @@
 //   describe_spin_images: {in: [cloud, points, scale], out: features, radius: 22}
 #include <pcl/features/spin_image.h>
 
-#include "graph/registry.hpp"
 #include "nodes/describe/pcl_surface.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -45,18 +45,11 @@ FeatureSet describe_spin_images(const Cloud& cloud, const FeaturePoints& points,
 }
 
 const auto registered =
-    graph::register_node("describe_spin_images", describe_spin_images,
-                         "Spin images: distance from the normal against height (153 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
+    register_descriptor<Params>(
+        "describe_spin_images", describe_spin_images,
+        "Spin images: distance from the normal against height (153 numbers).", 1)
         .param("min_facing", &Params::min_facing, "cosine",
-               "Least |n . n'| of a neighbour; 0 takes all.", graph::in_range(0, 1))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(1));
+               "Least |n . n'| of a neighbour; 0 takes all.", graph::in_range(0, 1));
 
 }  // namespace
 }  // namespace posevote

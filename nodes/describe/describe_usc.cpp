@@ -17,8 +17,8 @@
 
 #include <limits>
 
-#include "graph/registry.hpp"
 #include "nodes/describe/pcl_surface.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -60,16 +60,8 @@ FeatureSet describe_usc(const Cloud& cloud, const FeaturePoints& points, const S
   });
 }
 
-const auto registered = graph::register_node("describe_usc", describe_usc,
-                                             "USC: shape contexts in a local frame (1960 numbers).")
-                            .input("cloud")
-                            .input("points")
-                            .input("scale")
-                            .output("features")
-                            .param("radius", &Params::radius, "x resolution",
-                                   "Neighbours within this are described.", graph::greater_than(0))
-                            .param("min_neighbours", &Params::min_neighbours, "",
-                                   "A feature point with fewer is left out.", graph::at_least(5));
+const auto registered = register_descriptor<Params>(
+    "describe_usc", describe_usc, "USC: shape contexts in a local frame (1960 numbers).", 5);
 
 }  // namespace
 }  // namespace posevote
