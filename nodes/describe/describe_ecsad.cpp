@@ -118,7 +118,8 @@ class Cells {
   };
 
   static std::size_t first(int shell) {
-    return static_cast<std::size_t>(kFewestSectors * shell * (shell + 1) / 2);
+    const auto number = static_cast<std::size_t>(shell);
+    return kFewestSectors * number * (number + 1) / 2;
   }
 
   std::array<Mean, 2 * static_cast<std::size_t>(kLength)> means_;

@@ -76,7 +76,7 @@ FeatureSet describe_fpfh(const Cloud& cloud, const FeaturePoints& points, const 
                          const Params& params) {
   const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   const Simplified histograms = simplified_histograms(support);
-  return support.describe(kLength, 64, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
+  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
     Fpfh fpfh;
     Eigen::VectorXf histogram(kLength);
     for (std::size_t i = 0; i < rows->size(); ++i) {

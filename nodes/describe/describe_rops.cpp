@@ -45,7 +45,7 @@ FeatureSet describe_rops(const Cloud& cloud, const FeaturePoints& points, const 
   }
   support.leave_out_unless(touched);
   // PCL copies and sorts all triangles anew in every chunk, so chunks are large.
-  return support.describe(kLength, 512, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
+  return support.describe(kLength, 512, [&](const PclRows& rows, DescriptorMatrix& out) {
     pcl::ROPSEstimation<pcl::PointXYZ, Statistics> estimation;
     estimation.setTriangles(triangles);
     estimation.setSupportRadius(support.radius());

@@ -25,7 +25,7 @@ FeatureSet describe_shot(const Cloud& cloud, const FeaturePoints& points, const 
                          const Params& params) {
   PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   support.find_frames();
-  return support.describe(kLength, 64, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
+  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
     pcl::SHOTEstimation<pcl::PointXYZ, pcl::Normal, pcl::SHOT352> estimation;
     estimation.setInputNormals(support.surface().normals);
     estimation.setInputReferenceFrames(support.frames(rows));

@@ -35,7 +35,7 @@ FeatureSet describe_spin_images(const Cloud& cloud, const FeaturePoints& points,
                                 const Params& params) {
   using Image = pcl::Histogram<kLength>;
   const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
-  return support.describe(kLength, 64, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
+  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
     pcl::SpinImageEstimation<pcl::PointXYZ, pcl::Normal, Image> estimation(kWidth,
                                                                            params.min_facing);
     estimation.setInputNormals(support.surface().normals);

@@ -48,7 +48,7 @@ FeatureSet describe_usc(const Cloud& cloud, const FeaturePoints& points, const S
   PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   support.find_frames();
   const auto radius = static_cast<double>(support.radius());
-  return support.describe(kLength, 32, [&](const PclRows& rows, Eigen::Ref<DescriptorMatrix> out) {
+  return support.describe(kLength, 32, [&](const PclRows& rows, DescriptorMatrix& out) {
     ShapeContext estimation;
     estimation.setMinimalRadius(radius / 10);
     estimation.setPointDensityRadius(radius / 5);

@@ -57,7 +57,7 @@ class PclSupport {
 
   /// Writes the descriptors of the surface's points `rows`, in their order, to the rows of the
   /// matrix.
-  using Describe = std::function<void(const PclRows& rows, Eigen::Ref<DescriptorMatrix> out)>;
+  using Describe = std::function<void(const PclRows& rows, DescriptorMatrix& out)>;
 
   /// Describes in parallel, `chunk` feature points a call, those feature points that are on the
   /// surface and have at least `min_neighbours` others within the radius. A row that holds a NaN is
@@ -90,7 +90,7 @@ class PclSupport {
 /// Runs one of PCL's estimations over `rows`; `values(point)` are a descriptor's numbers.
 template <class Point, class Estimation, class Values>
 void run_estimation(Estimation& estimation, const PclSupport& support, const PclRows& rows,
-                    const Values& values, Eigen::Ref<DescriptorMatrix> out) {
+                    const Values& values, DescriptorMatrix& out) {
   estimation.setInputCloud(support.surface().points);
   estimation.setIndices(rows);
   estimation.setSearchMethod(support.tree());
