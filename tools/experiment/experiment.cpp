@@ -7,7 +7,10 @@
 namespace posevote {
 namespace {
 
-const std::vector<Method> kMethods = {{"posevote", "recognize"}, {"ransac", "ransac"}};
+const std::vector<Method> kMethods = {{"posevote", "recognize"},
+                                      {"ransac", "ransac"},
+                                      {"hough3d", "hough3d"},
+                                      {"geometric_consistency", "geometric_consistency"}};
 
 }  // namespace
 
