@@ -94,7 +94,7 @@ class Cells {
 
   void write(float* descriptor) const {
     for (int shell = 0; shell < kShells; ++shell) {
-      const auto half = static_cast<std::size_t>(kFewestSectors / 2 * (shell + 1));
+      const std::size_t half = first(shell + 1) / 2 - first(shell) / 2;
       const Mean* cell = &means_[first(shell)];
       Mean of_shell;
       std::vector<Mean> pairs(half);
