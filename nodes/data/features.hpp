@@ -29,6 +29,9 @@ struct FeatureSet {
   PointMatrix points;            ///< n x 3 [m]
   PointMatrix normals;           ///< n x 3 unit
   DescriptorMatrix descriptors;  ///< n x d, compared by the Euclidean distance
+  /// Several descriptors side by side, each compared by itself: their numbers of columns, of sum d.
+  /// Empty: one descriptor.
+  std::vector<std::uint32_t> blocks;
 };
 
 struct Model;

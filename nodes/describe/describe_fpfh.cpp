@@ -13,9 +13,8 @@
 #include <pcl/features/fpfh.h>
 
 #include "graph/parallel.hpp"
-#include "graph/registry.hpp"
-#include "nodes/describe/feature_set.hpp"
 #include "nodes/describe/pcl_surface.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -36,16 +35,17 @@ struct Neighbours {
 };
 
 /// Neighbours of a surface point, itself among them.
-Neighbours find_neighbours(const PclSurface& surface, const PointGrid& grid, int row,
-                           float radius) {
+Neighbours find_neighbours(const PclSupport& support, int row) {
+  const PclSurface& surface = support.surface();
   Neighbours found;
-  grid.for_each_within(surface.points->points[static_cast<std::size_t>(row)].getVector3fMap(),
-                       radius, [&](std::uint32_t point, float squared) {
-                         const int neighbour = surface.row_of[point];
-                         if (neighbour < 0) return;
-                         found.rows.push_back(neighbour);
-                         found.squared.push_back(squared);
-                       });
+  support.grid().for_each_within(
+      surface.points->points[static_cast<std::size_t>(row)].getVector3fMap(), support.radius(),
+      [&](std::uint32_t point, float squared) {
+        const int neighbour = surface.row_of[point];
+        if (neighbour < 0) return;
+        found.rows.push_back(neighbour);
+        found.squared.push_back(squared);
+      });
   return found;
 }
 
@@ -54,7 +54,8 @@ struct Simplified {
   Eigen::MatrixXf angle[3];
 };
 
-Simplified simplified_histograms(const PclSurface& surface, const PointGrid& grid, float radius) {
+Simplified simplified_histograms(const PclSupport& support) {
+  const PclSurface& surface = support.surface();
   const auto count = static_cast<Eigen::Index>(surface.points->size());
   Simplified histograms;
   for (Eigen::MatrixXf& angle : histograms.angle) angle.setZero(count, kBins);
@@ -62,7 +63,7 @@ Simplified simplified_histograms(const PclSurface& surface, const PointGrid& gri
     Fpfh fpfh;
     for (std::size_t i = begin; i < end; ++i) {
       const int row = static_cast<int>(i);
-      const Neighbours near = find_neighbours(surface, grid, row, radius);
+      const Neighbours near = find_neighbours(support, row);
       if (near.rows.size() < 2) continue;
       fpfh.computePointSPFHSignature(*surface.points, *surface.normals, row, row, near.rows,
                                      histograms.angle[0], histograms.angle[1], histograms.angle[2]);
@@ -73,40 +74,23 @@ Simplified simplified_histograms(const PclSurface& surface, const PointGrid& gri
 
 FeatureSet describe_fpfh(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                          const Params& params) {
-  require_describable(cloud, points, scale);
-  const float radius = static_cast<float>(params.radius) * scale.resolution;
-  const PclSurface surface = make_pcl_surface(cloud);
-  const PointGrid grid(cloud.points, 0.5F * radius);
-  const Describable chosen =
-      select_describable(surface, grid, points, radius, params.min_neighbours);
-  const Simplified histograms = simplified_histograms(surface, grid, radius);
-  DescriptorMatrix descriptors(static_cast<Eigen::Index>(points.indices.size()), kLength);
-  std::vector<char> described(points.indices.size(), 0);
-  graph::parallel_ranges(chosen.row.size(), 64, [&](std::size_t begin, std::size_t end) {
+  const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  const Simplified histograms = simplified_histograms(support);
+  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
     Fpfh fpfh;
     Eigen::VectorXf histogram(kLength);
-    for (std::size_t i = begin; i < end; ++i) {
-      const Neighbours near = find_neighbours(surface, grid, chosen.row[i], radius);
+    for (std::size_t i = 0; i < rows->size(); ++i) {
+      const Neighbours near = find_neighbours(support, (*rows)[i]);
       fpfh.weightPointSPFHSignature(histograms.angle[0], histograms.angle[1], histograms.angle[2],
                                     near.rows, near.squared, histogram);
-      descriptors.row(static_cast<Eigen::Index>(chosen.feature[i])) = histogram.transpose();
-      described[chosen.feature[i]] = 1;
+      out.row(static_cast<Eigen::Index>(i)) = histogram.transpose();
     }
   });
-  return keep_described(cloud, points, descriptors, described);
 }
 
 const auto registered =
-    graph::register_node("describe_fpfh", describe_fpfh,
-                         "FPFH: averaged histograms of point-pair angles (33 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(2));
+    register_descriptor<Params>("describe_fpfh", describe_fpfh,
+                                "FPFH: averaged histograms of point-pair angles (33 numbers).", 2);
 
 }  // namespace
 }  // namespace posevote

@@ -19,11 +19,9 @@
 // neighbours. Fails if none is left. Time: O(feature points x neighbours).
 //
 //   describe_point_pairs: {in: [cloud, points, scale], out: features, radius: 25}
-#include "graph/parallel.hpp"
-#include "graph/registry.hpp"
 #include "nodes/describe/feature_set.hpp"
 #include "nodes/describe/point_pair_histogram.hpp"
-#include "nodes/prepare/grid.hpp"
+#include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
 namespace {
@@ -35,55 +33,40 @@ struct Params {
 };
 
 /// Writes the descriptor of one point and returns how many neighbours it is made of.
-int describe(const Cloud& cloud, const PointGrid& grid, std::uint32_t point, float radius,
-             float min_facing, float* descriptor) {
+int describe(const Support& support, std::uint32_t point, float min_facing, float* descriptor) {
+  const Cloud& cloud = support.cloud();
   const Eigen::Vector3f center = cloud.points.row(point);
   const Eigen::Vector3f normal = cloud.normals.row(point);
-  PointPairHistogram histogram(normal, radius);
+  PointPairHistogram histogram(normal, support.radius());
   int count = 0;
-  grid.for_each_within(center, radius, [&](std::uint32_t neighbour, float squared) {
+  const auto add = [&](std::uint32_t neighbour, float squared) {
     if (!(squared > 0) || !is_oriented(cloud, neighbour)) return;
     const Eigen::Vector3f other = cloud.normals.row(neighbour);
     if (!(normal.dot(other) >= min_facing)) return;
     histogram.add(cloud.points.row(neighbour).transpose() - center, other);
     ++count;
-  });
+  };
+  support.grid().for_each_within(center, support.radius(), add);
   histogram.write(descriptor);
   return count;
 }
 
 FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                                 const Params& params) {
-  require_describable(cloud, points, scale);
-  const float radius = static_cast<float>(params.radius) * scale.resolution;
+  const Support support(cloud, points, scale, params.radius);
   const auto min_facing = static_cast<float>(params.min_facing);
-  const PointGrid grid(cloud.points, 0.5F * radius);
-  const std::size_t count = points.indices.size();
-  DescriptorMatrix descriptors(static_cast<Eigen::Index>(count), PointPairHistogram::kLength);
-  std::vector<char> described(count, 0);
-  graph::parallel_for(count, 32, [&](std::size_t i) {
-    const std::uint32_t point = points.indices[i];
-    if (!is_oriented(cloud, point)) return;
-    described[i] =
-        describe(cloud, grid, point, radius, min_facing,
-                 descriptors.row(static_cast<Eigen::Index>(i)).data()) >= params.min_neighbours;
-  });
-  return keep_described(cloud, points, descriptors, described);
+  const auto one = [&](std::uint32_t point, float* descriptor) {
+    return describe(support, point, min_facing, descriptor) >= params.min_neighbours;
+  };
+  return support.describe_each(PointPairHistogram::kLength, one);
 }
 
 const auto registered =
-    graph::register_node("describe_point_pairs", describe_point_pairs,
-                         "Point-pair histograms: distance against four angles (240 numbers).")
-        .input("cloud")
-        .input("points")
-        .input("scale")
-        .output("features")
-        .param("radius", &Params::radius, "x resolution", "Neighbours within this are described.",
-               graph::greater_than(0))
+    register_descriptor<Params>(
+        "describe_point_pairs", describe_point_pairs,
+        "Point-pair histograms: distance against four angles (240 numbers).", 1)
         .param("min_facing", &Params::min_facing, "cosine",
-               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1))
-        .param("min_neighbours", &Params::min_neighbours, "",
-               "A feature point with fewer is left out.", graph::at_least(1));
+               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1));
 
 }  // namespace
 }  // namespace posevote

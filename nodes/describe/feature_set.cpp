@@ -5,7 +5,17 @@
 #include <stdexcept>
 #include <string>
 
+#include "graph/parallel.hpp"
+
 namespace posevote {
+namespace {
+
+const Cloud& checked(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
+  require_describable(cloud, points, scale);
+  return cloud;
+}
+
+}  // namespace
 
 void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
   if (cloud.normals.rows() != cloud.points.rows())
@@ -49,6 +59,26 @@ FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
     features.descriptors.row(row) = descriptors.row(from);
   }
   return features;
+}
+
+Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius)
+    : cloud_(checked(cloud, points, scale)),
+      points_(points),
+      resolution_(scale.resolution),
+      radius_(static_cast<float>(radius) * scale.resolution),
+      grid_(cloud.points, 0.5F * radius_) {}
+
+FeatureSet Support::describe_each(
+    int length, const std::function<bool(std::uint32_t point, float* descriptor)>& describe) const {
+  const std::size_t count = points_.indices.size();
+  DescriptorMatrix descriptors(static_cast<Eigen::Index>(count), length);
+  std::vector<char> described(count, 0);
+  graph::parallel_for(count, 32, [&](std::size_t i) {
+    const std::uint32_t point = points_.indices[i];
+    if (is_oriented(cloud_, point))
+      described[i] = describe(point, descriptors.row(static_cast<Eigen::Index>(i)).data());
+  });
+  return keep_described(cloud_, points_, descriptors, described);
 }
 
 }  // namespace posevote

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all descriptors have in common: the check before, and the choice after.
+// What all descriptors have in common: the check before, the loop, and the choice after.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "nodes/data/features.hpp"
+#include "nodes/prepare/grid.hpp"
 
 namespace posevote {
 
@@ -20,5 +22,32 @@ bool is_oriented(const Cloud& cloud, std::uint32_t point);
 /// nothing is left.
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
                           const DescriptorMatrix& descriptors, const std::vector<char>& described);
+
+/// The neighbourhoods that a descriptor looks at, in one cloud. Keeps references to its arguments.
+class Support {
+ public:
+  /// `radius`: multiples of the resolution. Throws what require_describable throws.
+  Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius);
+
+  const Cloud& cloud() const { return cloud_; }
+  const FeaturePoints& points() const { return points_; }
+  const PointGrid& grid() const { return grid_; }
+  float resolution() const { return resolution_; }  ///< [m]
+  float radius() const { return radius_; }          ///< [m]
+
+  /// Calls describe(point, descriptor) in parallel for every oriented feature point, `descriptor`
+  /// being `length` numbers to write; where it returns false the point is left out. Throws what
+  /// keep_described throws.
+  FeatureSet describe_each(
+      int length,
+      const std::function<bool(std::uint32_t point, float* descriptor)>& describe) const;
+
+ private:
+  const Cloud& cloud_;
+  const FeaturePoints& points_;
+  float resolution_;
+  float radius_;
+  PointGrid grid_;
+};
 
 }  // namespace posevote

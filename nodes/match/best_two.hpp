@@ -16,6 +16,13 @@ struct TwoNearest {
   float squared[2] = {0, 0};  ///< squared Euclidean distances
 };
 
+/// How little a match says, in [0, 1]: squared distance of the nearest over the second nearest; 0/0
+/// is 1.
+inline float squared_ratio(const TwoNearest& nearest) {
+  const float ratio = nearest.squared[0] / nearest.squared[1];
+  return ratio <= 1 ? ratio : 1;
+}
+
 /// The squared distance that decides: summed in double, in ascending order of the columns.
 inline double squared_distance(const float* a, const float* b, Eigen::Index dimension) {
   double sum = 0;

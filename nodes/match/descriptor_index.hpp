@@ -20,22 +20,29 @@ namespace posevote {
 
 struct IndexOptions {
   std::string search = "exact";  ///< exact, kd_tree or approximate
-  int trees = 4;                 ///< approximate: trees in the forest
-  int checks = 512;              ///< approximate: descriptors compared per query
+  int trees = 4;                 ///< approximate: trees in the forest, 1 to 64
+  int checks = 512;              ///< approximate: descriptors compared per query, at least 2
 };
 
-/// Immutable once built; safe to read from many threads.
+/// Numbers of columns of the descriptors that stand side by side in a row; empty: one descriptor.
+using Blocks = std::vector<std::uint32_t>;
+
+/// Immutable once built; safe to read from many threads. Of fused features, each block has an index
+/// of its own.
 class DescriptorIndex {
  public:
-  /// Stacks the blocks in their order: row r of block i becomes row r + the rows of the blocks
-  /// before. Throws std::runtime_error if there is no row, if the blocks differ in length, or where
-  /// a value is not finite.
-  DescriptorIndex(const std::vector<const DescriptorMatrix*>& blocks, IndexOptions options);
+  /// Stacks the matrices in their order: row r of matrix i becomes row r + the rows of the matrices
+  /// before. Throws std::runtime_error if there is no row, if the matrices differ in length, where
+  /// a value is not finite, if the blocks are not the columns, or if an option is out of range.
+  DescriptorIndex(const std::vector<const DescriptorMatrix*>& matrices, IndexOptions options,
+                  Blocks blocks = {});
   ~DescriptorIndex();
 
-  /// The two nearest rows of every query. Throws std::runtime_error if the queries are of another
-  /// length than the rows, or where a value is not finite.
-  std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries) const;
+  /// The two nearest rows of every query: by that block whose squared ratio is the smallest, of
+  /// equal ones the first. Throws std::runtime_error if the queries are of another length than the
+  /// rows, in other blocks, or where a value is not finite.
+  std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries,
+                                      const Blocks& blocks = {}) const;
 
   const IndexOptions& options() const;
   /// Whether the same descriptors always give the same matches.
@@ -46,7 +53,8 @@ class DescriptorIndex {
   std::unique_ptr<const Data> data_;
 };
 
-/// The index over the descriptors of these models, in their order.
+/// The index over the features of these models, in their order. Throws std::runtime_error where
+/// they are fused differently.
 std::shared_ptr<const DescriptorIndex> index_of(
     const std::vector<std::shared_ptr<const Model>>& models, const IndexOptions& options);
 

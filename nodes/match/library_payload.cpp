@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "nodes/match/check_library.hpp"
 #include "nodes/match/descriptor_index.hpp"
 
 namespace posevote {
@@ -23,6 +24,8 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put_matrix(model.features.points);
   out.put_matrix(model.features.normals);
   out.put_matrix(model.features.descriptors);
+  out.put(std::uint64_t{model.features.blocks.size()});
+  for (const std::uint32_t width : model.features.blocks) out.put(width);
   out.put_matrix(model.center);
   out.put(model.diagonal);
 }
@@ -40,10 +43,6 @@ Cloud get_cloud(ByteReader& in) {
   cloud.faces = in.get_matrix<FaceMatrix>();
   cloud.viewpoint = get_vector(in);
   cloud.dropped = in.get<std::uint64_t>();
-  if (cloud.normals.rows() != 0 && cloud.normals.rows() != cloud.points.rows())
-    throw std::runtime_error("is damaged: a cloud has more or fewer normals than points");
-  if (cloud.faces.size() > 0 && cloud.faces.maxCoeff() >= cloud.points.rows())
-    throw std::runtime_error("is damaged: a face names a point that is not there");
   return cloud;
 }
 
@@ -55,17 +54,19 @@ Model get_model(ByteReader& in) {
   model.features.points = in.get_matrix<PointMatrix>();
   model.features.normals = in.get_matrix<PointMatrix>();
   model.features.descriptors = in.get_matrix<DescriptorMatrix>();
+  const auto blocks = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < blocks; ++i)
+    model.features.blocks.push_back(in.get<std::uint32_t>());
   model.center = get_vector(in);
   model.diagonal = in.get<float>();
-  const Eigen::Index count = model.features.points.rows();
-  if (model.features.normals.rows() != count || model.features.descriptors.rows() != count)
-    throw std::runtime_error("is damaged: feature points and descriptors differ in number");
   return model;
 }
 
 }  // namespace
 
 std::string encode_library(const ModelLibrary& library) {
+  check_library(library);
+  if (!library.index) throw std::runtime_error("the library has no index");
   ByteWriter out;
   out.put(library.scale.resolution);
   const IndexOptions& options = library.index->options();
@@ -89,7 +90,12 @@ ModelLibrary decode_library(std::string_view bytes) {
   for (std::uint64_t i = 0; i < count; ++i)
     library.models.push_back(std::make_shared<const Model>(get_model(in)));
   if (!in.rest().empty()) throw std::runtime_error("is damaged: it goes on after its end");
-  library.index = index_of(library.models, options);
+  try {
+    check_library(library);
+    library.index = index_of(library.models, options);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string("is damaged: ") + error.what());
+  }
   return library;
 }
 

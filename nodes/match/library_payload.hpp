@@ -77,11 +77,12 @@ class ByteReader {
   std::string_view rest_;
 };
 
-/// Everything but the index, of which the options are kept.
+/// Everything but the index, of which the options are kept. Throws std::runtime_error for a library
+/// that is not sound: what is written can be read.
 std::string encode_library(const ModelLibrary& library);
 
-/// The library, with an index built anew. Throws std::runtime_error if the bytes are not what
-/// encode_library made or do not fit together.
+/// The library, with an index built anew. Throws std::runtime_error "is damaged: ..." if the bytes
+/// are not what encode_library made or do not fit together.
 ModelLibrary decode_library(std::string_view bytes);
 
 }  // namespace posevote

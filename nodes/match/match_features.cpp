@@ -3,10 +3,13 @@
 // object that owns that descriptor (Buch, Kiforenko, Kraft, ICCV 2017, multi-object recognition).
 // Each correspondence carries the ratio of the squared distances to the nearest and
 // the second nearest descriptor, the authors' own match score: 0 is distinctive, 1 is a coin toss
-// (0/0 counts as 1).
+// (0/0 counts as 1). Where features carry several descriptors (fuse_features), each is searched
+// by itself and the one with the smallest ratio decides (of equal ratios the first); `distance` is
+// then that descriptor's.
 //
 // One slot a model, in library order, possibly empty. Fails where the scene's descriptors are of
-// another length than the library's. Time: that of DescriptorIndex::nearest_two.
+// another length than the library's, or fused otherwise. Time: that of
+// DescriptorIndex::nearest_two.
 //
 //   match_features: {in: [scene_features, library], out: correspondences, max_ratio: 1}
 #include <algorithm>
@@ -34,15 +37,11 @@ std::vector<std::uint32_t> first_rows(const ModelLibrary& library) {
   return first;
 }
 
-float squared_ratio(const TwoNearest& nearest) {
-  const float ratio = nearest.squared[0] / nearest.squared[1];
-  return ratio <= 1 ? ratio : 1;  // so that 0/0 is 1
-}
-
 PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLibrary& library,
                                           const Params& params) {
   if (!library.index) throw std::runtime_error("the model library has no index");
-  const std::vector<TwoNearest> nearest = library.index->nearest_two(scene.descriptors);
+  const std::vector<TwoNearest> nearest =
+      library.index->nearest_two(scene.descriptors, scene.blocks);
   const std::vector<std::uint32_t> first = first_rows(library);
   std::vector<Correspondences> matches(library.models.size());
   for (std::size_t i = 0; i < matches.size(); ++i) matches[i].model = library.models[i];

@@ -35,15 +35,3 @@ TEST_CASE("FPFH equals PCL's own class", "[describe]") {
   }
   CHECK(different <= ours.descriptors.rows() / 100);
 }
-
-TEST_CASE("FPFH: turning a body changes nothing", "[describe]") {
-  const Cloud body = bumpy_cloud(2, kResolution);
-  const Eigen::Affine3f turn(Eigen::AngleAxisf(2.1F, Eigen::Vector3f(1, -2, 0.5F).normalized()));
-  const std::map<std::string, std::string> radius = {{"radius", "6"}};
-  CHECK(typical_difference(described(kNode, body, 5, radius),
-                           described(kNode, moved(body, turn), 5, radius)) < 0.02F);
-}
-
-TEST_CASE("FPFH: a body finds itself again", "[describe]") {
-  CHECK(self_match_rate(kNode, 0, {{"radius", "8"}}) > 0.5);
-}

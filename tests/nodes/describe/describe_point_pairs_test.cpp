@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
-#include <limits>
 
 #include "tests/nodes/describe/described_body.hpp"
 
@@ -101,56 +100,4 @@ TEST_CASE("point pairs: neighbours that face away do not count", "[describe]") {
       describe_origin(around_origin({{where, Eigen::Vector3f::UnitZ()}})), 1e-6F));
   CHECK_THROWS_WITH(describe_origin(around_origin({{where, away}, {-where, level}})),
                     Catch::Contains("none of 1 feature points"));
-}
-
-TEST_CASE("point pairs: the order of points does not matter", "[describe]") {
-  const Cloud body = bumpy_cloud(3, kResolution);
-  const auto count = static_cast<std::uint32_t>(body.points.rows());
-  Cloud reversed = body;
-  reversed.points = body.points.colwise().reverse();
-  reversed.normals = body.normals.colwise().reverse();
-  const auto describe = [](const Cloud& cloud, std::uint32_t point) {
-    return run_node<FeatureSet>(kNode, {}, cloud, FeaturePoints{{point}}, Scale{kResolution});
-  };
-  CHECK(describe(body, 10).descriptors.isApprox(describe(reversed, count - 11).descriptors, 1e-4F));
-}
-
-TEST_CASE("what cannot be described is left out", "[describe]") {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const std::string node : {"describe_point_pairs", "describe_shot", "describe_fpfh"}) {
-    INFO(node);
-    Cloud body = bumpy_cloud(1, kResolution);
-    body.normals.row(0).setZero();
-    body.normals.row(6).setConstant(nan);
-    body.points.row(12).setConstant(nan);
-    body.points.row(18) << 5, 5, 5;  // alone
-    body.points.row(24).setConstant(std::numeric_limits<float>::infinity());
-    body.normals.row(31).setConstant(std::numeric_limits<float>::infinity());  // of a neighbour
-    const FeatureSet features = described(node, body, 6, {{"radius", "6"}});
-    CHECK(features.points.rows() == (body.points.rows() + 5) / 6 - 5);
-    CHECK(features.points.row(0) == body.points.row(30));
-    CHECK(features.normals.row(0) == body.normals.row(30));
-    CHECK(features.points.rows() == features.descriptors.rows());
-    CHECK(features.descriptors.allFinite());
-  }
-}
-
-TEST_CASE("what makes no sense is refused by all descriptors", "[describe]") {
-  for (const std::string node : {"describe_point_pairs", "describe_shot", "describe_fpfh"}) {
-    INFO(node);
-    const Cloud body = bumpy_cloud(1, 2 * kResolution);
-    const auto describe = [&](const Cloud& cloud, const FeaturePoints& points, float resolution) {
-      return run_node<FeatureSet>(node, {}, cloud, points, Scale{resolution});
-    };
-    Cloud bare = body;
-    bare.normals.resize(0, 3);
-    CHECK_THROWS_WITH(describe(bare, {{0}}, kResolution), Catch::Contains("0 normals"));
-    CHECK_THROWS_WITH(describe(body, {}, kResolution), Catch::Contains("no feature points"));
-    CHECK_THROWS_WITH(describe(body, {{999999}}, kResolution), Catch::Contains("999999"));
-    CHECK_THROWS_WITH(describe(body, {{0}}, 0), Catch::Contains("resolution"));
-    CHECK_THROWS_WITH(describe(body, {{0, 1}}, 1e-6F), Catch::Contains("none of 2"));
-    Cloud blind = body;
-    blind.normals.setZero();
-    CHECK_THROWS_WITH(describe(blind, {{0}}, kResolution), Catch::Contains("none of 1"));
-  }
 }

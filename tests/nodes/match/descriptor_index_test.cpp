@@ -101,6 +101,65 @@ TEST_CASE("the approximate forest mostly finds the nearest, and says what it is"
   CHECK(DescriptorIndex({&one}, {"approximate"}).nearest_two(one)[0].squared[1] == 0);
 }
 
+TEST_CASE("each block is searched by itself, and the smallest ratio decides", "[match]") {
+  const DescriptorMatrix left = random_matrix(300, 5, 1), right = random_matrix(300, 12, 2);
+  const DescriptorMatrix left_queries = random_matrix(70, 5, 3);
+  const DescriptorMatrix right_queries = random_matrix(70, 12, 4);
+  DescriptorMatrix rows(300, 17), queries(70, 17);
+  rows << left, right;
+  queries << left_queries, right_queries;
+  for (const std::string search : {"exact", "kd_tree"}) {
+    INFO(search);
+    const auto fused = DescriptorIndex({&rows}, {search}, {5, 12}).nearest_two(queries, {5, 12});
+    REQUIRE(fused.size() == 70);
+    int by_left = 0;
+    for (std::size_t i = 0; i < fused.size(); ++i) {
+      const TwoNearest a = naive(left, left_queries, static_cast<Eigen::Index>(i));
+      const TwoNearest b = naive(right, right_queries, static_cast<Eigen::Index>(i));
+      const bool is_left = squared_ratio(a) <= squared_ratio(b);
+      by_left += is_left;
+      CHECK(fused[i].row[0] == (is_left ? a : b).row[0]);
+      CHECK(fused[i].squared[1] == (is_left ? a : b).squared[1]);
+    }
+    CHECK(by_left > 0);
+    CHECK(by_left < 70);
+  }
+}
+
+TEST_CASE("of blocks with equal ratios the first decides", "[match]") {
+  DescriptorMatrix rows(3, 2), query(1, 2);
+  rows << 0, 5, 3, 0, 9, 2;  // nearest by the first number is row 0, by the second row 1
+  query << 1, 1;
+  const DescriptorIndex index({&rows}, {}, {1, 1});
+  CHECK(index.nearest_two(query, {1, 1})[0].row[0] == 0);  // 1 : 4
+  query << 1, 1;
+  rows << 0, 3, 3, 0, 9, 9;
+  CHECK(DescriptorIndex({&rows}, {}, {1, 1}).nearest_two(query, {1, 1})[0].row[0] == 0);
+  query << 1, 0.5F;  // 0.25 : 6.25 beats 1 : 4
+  CHECK(DescriptorIndex({&rows}, {}, {1, 1}).nearest_two(query, {1, 1})[0].row[0] == 1);
+}
+
+TEST_CASE("blocks that are not the columns are refused, and other blocks too", "[match]") {
+  const DescriptorMatrix a = random_matrix(3, 8, 1);
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {}, {3, 4}),
+                    Catch::Contains("8 numbers in blocks of 3 4"));
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {}, {8, 0}), Catch::Contains("no columns"));
+  const std::uint32_t wrap = std::numeric_limits<std::uint32_t>::max();
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {}, {wrap, 9}), Catch::Contains("blocks of"));
+  const DescriptorIndex fused({&a}, {}, {3, 5});
+  CHECK_THROWS_WITH(fused.nearest_two(a, {5, 3}),
+                    Catch::Contains("blocks of 5 3, the library's blocks of 3 5"));
+  CHECK_THROWS_WITH(fused.nearest_two(a), Catch::Contains("are one descriptor"));
+  CHECK(fused.nearest_two(a, {3, 5})[2].row[0] == 2);
+}
+
+TEST_CASE("options of the search are refused where they are out of range", "[match]") {
+  const DescriptorMatrix a = random_matrix(3, 8, 1);
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {"approximate", 0, 5}), Catch::Contains("trees is 0"));
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {"approximate", 65, 5}), Catch::Contains("at most 64"));
+  CHECK_THROWS_WITH(DescriptorIndex({&a}, {"approximate", 4, 1}), Catch::Contains("checks is 1"));
+}
+
 TEST_CASE("an index refuses what it cannot search", "[match]") {
   const DescriptorMatrix none, a = random_matrix(3, 8, 1), b = random_matrix(3, 9, 1);
   CHECK_THROWS_WITH(DescriptorIndex({}, {}), Catch::Contains("no descriptors"));

@@ -3,8 +3,12 @@
 
 #include <signal.h>
 #include <sys/resource.h>
+#include <xxhash.h>
 
 #include <catch2/catch.hpp>
+#include <cstring>
+#include <limits>
+#include <random>
 #include <thread>
 
 #include "nodes/match/library_payload.hpp"
@@ -19,7 +23,34 @@ namespace {
 
 const std::string kKey(32, 'a');
 
-ModelLibrary example() { return make_library({{0, 10, 11}, {100}, {20, 30}}, {}, {3, 1, 9}); }
+ModelLibrary example(const std::string& search = "exact") {
+  return make_library({{0, 10, 11}, {100}, {20, 30}}, {{"search", search}}, {3, 1, 9});
+}
+
+std::optional<ModelLibrary> decode_or_refuse(const std::string& payload) {
+  try {
+    return decode_library(payload);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+/// What save_library would write around that payload.
+std::string file_around(const std::string& payload) {
+  XXH128_canonical_t hash;
+  XXH128_canonicalFromHash(&hash, XXH3_128bits(payload.data(), payload.size()));
+  std::string checksum;
+  for (const unsigned char byte : hash.digest)
+    for (const int digit : {byte >> 4, byte & 15})
+      checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
+  ByteWriter out;
+  for (const char letter : std::string("POSEVLIB")) out.put(letter);
+  out.put(std::uint32_t{2});
+  out.put(std::string_view(kKey));
+  out.put(std::string_view(checksum));
+  out.put(std::string_view(payload));
+  return out.bytes();
+}
 
 /// Why the file is not loaded; "" if it is.
 std::string refusal(const fs::path& file, const std::string& key = kKey) {
@@ -92,25 +123,98 @@ TEST_CASE("any damaged byte and any missing end is noticed", "[match]") {
 }
 
 TEST_CASE("the payload is checked by itself: a checksum proves nothing", "[match]") {
+  for (const std::string search : {"exact", "kd_tree", "approximate"}) {
+    INFO(search);
+    const std::string good = encode_library(example(search));
+    // A file can hold anything under a right checksum; none of these may crash or allocate wildly.
+    for (std::size_t i = 0; i < good.size(); ++i)
+      for (const char value : {'\0', '\x7F', '\xFF'}) {
+        std::string bad = good;
+        bad[i] = value;
+        decode_or_refuse(bad);
+        if (i + 8 > good.size()) continue;
+        std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(i), 8, value);
+        decode_or_refuse(bad);
+      }
+    CHECK_THROWS_WITH(decode_library(good + "x"), Catch::Contains("damaged"));
+    CHECK_NOTHROW(decode_library(good));
+  }
+}
+
+TEST_CASE("whatever a payload holds, what is decoded from it is sound", "[match]") {
   const std::string good = encode_library(example());
-  // A file can hold anything under a right checksum; none of these may crash or allocate wildly.
-  for (std::size_t i = 0; i < good.size(); ++i)
-    for (const char value : {'\0', '\x7F', '\xFF'}) {
-      std::string bad = good;
-      bad[i] = value;
-      try {
-        decode_library(bad);
-      } catch (const std::runtime_error&) {
-      }
-      if (i + 8 > good.size()) continue;
-      std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(i), 8, value);
-      try {
-        decode_library(bad);
-      } catch (const std::runtime_error&) {
-      }
+  std::mt19937 random(11);
+  int decoded = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::string bad = good;
+    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
+      bad[random() % bad.size()] ^= static_cast<char>(1U << (random() % 8));
+    if (random() % 8 == 0) bad.resize(random() % bad.size());
+    if (const auto library = decode_or_refuse(bad)) {
+      ++decoded;
+      CHECK(encode_library(*library) == bad);  // nothing was read otherwise than it was written
     }
-  CHECK_THROWS_WITH(decode_library(good + "x"), Catch::Contains("damaged"));
-  CHECK_NOTHROW(decode_library(good));
+  }
+  CHECK(decoded > 0);  // a name, a descriptor or a hundredth of a millimetre may be anything
+  CHECK(decoded < 3600);
+}
+
+TEST_CASE("a file with a right checksum over a wrong payload is refused by name", "[match]") {
+  const TemporaryFolder folder;
+  ModelLibrary library = example();
+  const std::string payload = encode_library(library);
+  const float infinite = std::numeric_limits<float>::infinity();
+  std::string bad = payload;
+  std::memcpy(bad.data(), &infinite, sizeof infinite);  // the resolution comes first
+  CHECK(refusal(folder.write("good", file_around(payload))).empty());
+  CHECK_THAT(refusal(folder.write("bad", file_around(bad))),
+             Catch::Contains("damaged: the resolution is inf m"));
+}
+
+TEST_CASE("search options that are out of range are refused, whatever the search", "[match]") {
+  for (const std::string search : {"exact", "kd_tree", "approximate"}) {
+    const std::string good = encode_library(example(search));
+    const auto with = [&](std::size_t option, std::int32_t value) {
+      std::string bad = good;
+      const std::size_t place = sizeof(float) + sizeof(std::uint64_t) + search.size();
+      std::memcpy(&bad[place + option * sizeof value], &value, sizeof value);
+      return bad;
+    };
+    INFO(search);
+    for (const std::int32_t trees : {0, -1, 65, std::numeric_limits<std::int32_t>::max()})
+      CHECK_THROWS_WITH(decode_library(with(0, trees)), Catch::Contains("damaged: trees is"));
+    for (const std::int32_t checks : {1, 0, -5})
+      CHECK_THROWS_WITH(decode_library(with(1, checks)), Catch::Contains("damaged: checks is"));
+    CHECK_NOTHROW(decode_library(with(0, 64)));
+    CHECK_NOTHROW(decode_library(with(1, std::numeric_limits<std::int32_t>::max())));
+  }
+}
+
+TEST_CASE("a library that is not sound is not written", "[match]") {
+  ModelLibrary library = example();
+  library.index = nullptr;
+  CHECK_THROWS_WITH(encode_library(library), Catch::Contains("no index"));
+  library = example();
+  library.scale.resolution = 0;
+  CHECK_THROWS_WITH(encode_library(library), Catch::Contains("the resolution is 0"));
+}
+
+TEST_CASE("fused features come back with their blocks", "[match]") {
+  ModelLibrary library = example();
+  for (auto& model : library.models) {
+    Model fused = *model;
+    fused.features.descriptors = fused.features.descriptors.replicate(1, 3).eval();
+    fused.features.blocks = {1, 2};
+    model = std::make_shared<const Model>(std::move(fused));
+  }
+  library.index = index_of(library.models, {});
+  std::string payload = encode_library(library);
+  CHECK(decode_library(payload).models[1]->features.blocks == Blocks{1, 2});
+  const std::uint32_t width = 3;  // of the last model's last block, before centre and diagonal
+  const std::size_t center = 2 * sizeof(std::uint64_t) + 3 * sizeof(float);
+  std::memcpy(&payload[payload.size() - sizeof(float) - center - sizeof width], &width,
+              sizeof width);
+  CHECK_THROWS_WITH(decode_library(payload), Catch::Contains("damaged: the features of 'm1'"));
 }
 
 TEST_CASE("a file of another kind, version or key is refused by name", "[match]") {
@@ -124,7 +228,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 1"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 2"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

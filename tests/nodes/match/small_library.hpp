@@ -27,7 +27,7 @@ inline Cloud box_cloud(const Eigen::Vector3f& low, const Eigen::Vector3f& high) 
   cloud.points.row(0) = low.transpose();
   cloud.points.row(1) = high.transpose();
   cloud.points.row(2) = (0.3F * low + 0.7F * high).transpose();
-  cloud.normals.setConstant(3, 3, 0.5F);
+  cloud.normals = PointMatrix::Ones(3, 3).rowwise().normalized();
   cloud.faces.resize(1, 3);
   cloud.faces << 0, 1, 2;
   cloud.dropped = 4;
