@@ -3,6 +3,10 @@
 // scan's points vote, by all pairs that they make, for the pose of the model; poses that agree are
 // one.
 //
+// The clusters are as wide as one step of the sampling and of the angles: what OpenCV's defaults
+// mean, which are wrong for any unit but one. OpenCV compares angles of rotation, not rotations, so
+// a cluster may mix poses that share their place alone.
+//
 // Works on the preprocessed clouds, not on correspondences. OpenCV's grid has as many cells along
 // each axis of the bounding box and 160 at most, so a small object in a wide scan is sampled more
 // coarsely than it was trained. Quadratic in the sampled points: OpenCV pairs points that are
@@ -34,7 +38,7 @@ const auto registered =
                "Share of the sampled scan points that vote.", graph::in_range(0.01, 1))
         .param("cluster_distance", &PpfMatching::cluster_distance, "x diagonal",
                "Poses nearer than this are one.", graph::at_least(0))
-        .param("cluster_angle", &PpfMatching::cluster_angle, "rad",
+        .param("cluster_angle", &PpfMatching::cluster_angle, "deg",
                "If their angles of rotation differ by less.", graph::at_least(0));
 
 }  // namespace

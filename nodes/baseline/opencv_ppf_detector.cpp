@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <mutex>
+#include <numbers>
 #include <opencv2/surface_matching/ppf_helpers.hpp>
 #include <opencv2/surface_matching/ppf_match_3d.hpp>
 #include <optional>
@@ -50,7 +51,8 @@ struct Box {
 
 /// OpenCV averages quaternions and leaves them as short as they come out, so its matrices scale.
 std::optional<Eigen::Isometry3d> rigid(const ppf::Pose3D& pose) {
-  const Eigen::Quaterniond q(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
+  // OpenCV's quaternion is that of the transposed matrix.
+  const Eigen::Quaterniond q(pose.q[0], -pose.q[1], -pose.q[2], -pose.q[3]);
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   T_scene_model.translation() << pose.t[0], pose.t[1], pose.t[2];
   if (!(q.norm() > 1e-3) || !q.coeffs().allFinite() || !T_scene_model.matrix().allFinite())

@@ -17,9 +17,9 @@ struct PpfTraining {
 };
 
 struct PpfMatching {
-  double reference_share = 0.2;   ///< of the sampled scene points, those that vote
-  double cluster_distance = 0.1;  ///< poses nearer than this are one, x diagonal
-  double cluster_angle = 0.2;     ///< and whose angles of rotation differ by less [rad]
+  double reference_share = 0.2;    ///< of the sampled scene points, those that vote
+  double cluster_distance = 0.05;  ///< poses nearer than this are one, x diagonal
+  double cluster_angle = 12;       ///< and whose angles of rotation differ by less [deg]
 };
 
 class PpfDetector {
