@@ -30,7 +30,10 @@ bool has_opencv() { return graph::find_node("opencv_ppf") != nullptr; }
 }  // namespace
 
 TEST_CASE("nodes/README.md is current: run `posevote docs` when this fails", "[style]") {
-  if (!has_opencv()) return WARN("skipped: built without OpenCV");
+  if (!has_opencv()) {
+    WARN("skipped: built without OpenCV");
+    return;
+  }
   CHECK(test::read_text(kSource / "nodes/README.md") == node_reference());
 }
 
