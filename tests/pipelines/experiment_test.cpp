@@ -31,7 +31,7 @@ TEST_CASE("experiment uwa: methods side by side on a set with true poses", "[exp
   const std::string spec =
       folder.write("spec.yaml",
                    "models: [{shape: kettle, size: 0.2}]\n"
-                   "scenes: [{count: 2, table: false, sensor: rgbd, objects: [1], clutter: 1}]\n");
+                   "scenes: [{count: 2, ground: unseen, sensor: rgbd, objects: [1], clutter: 1}]\n");
   REQUIRE(run_posevote(folder, "simulate " + spec + " --out " + (folder / "d").string()).status ==
           0);
   const CommandResult result =

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "tools/simulate/scanner.hpp"
-#include "tools/simulate/shapes.hpp"
 #include "tools/simulate/surface_nets.hpp"
 
 using namespace posevote;
@@ -18,22 +18,6 @@ Body ball(double radius, const Eigen::Vector3d& center) {
   Body body{mesh, 1, Eigen::Isometry3d::Identity()};
   body.T_world_body.translation() = center;
   return body;
-}
-
-/// 1 inside a closed mesh, 0 outside: the solid angle that it covers, over 4 pi (van Oosterom,
-/// Strackee 1983).
-double winding_number(const Cloud& mesh, const Eigen::Vector3d& point) {
-  double sum = 0;
-  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
-    Eigen::Matrix3d m;
-    for (int k = 0; k < 3; ++k)
-      m.col(k) = mesh.points.row(mesh.faces(face, k)).transpose().cast<double>() - point;
-    const Eigen::RowVector3d length = m.colwise().norm();
-    sum += std::atan2(m.determinant(), length.prod() + m.col(0).dot(m.col(1)) * length[2] +
-                                           m.col(1).dot(m.col(2)) * length[0] +
-                                           m.col(2).dot(m.col(0)) * length[1]);
-  }
-  return sum / (2 * std::numbers::pi);
 }
 
 const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
@@ -59,7 +43,10 @@ TEST_CASE("the points of a scanned ball lie on it, within the noise", "[simulate
       sum += off, squares += off * off;
       ++frontal;
     }
-    const double expected = name == "laser" ? 0.0003 : std::hypot(0.001425 * 0.5, 0.001 / 3.46);
+    const double expected = name == "laser" ? 0.0003
+                            : name == "sweep"
+                                ? 0.0005
+                                : std::hypot(0.001425 * 0.5, 0.00285 * 0.5 / 3.46, 0.001 / 3.46);
     REQUIRE(frontal > 1000);
     CHECK(std::abs(sum / frontal) < 0.0002);
     CHECK(std::sqrt(squares / frontal) == Approx(expected).epsilon(0.15));
@@ -100,26 +87,52 @@ TEST_CASE("the sensor looks at its target, upright", "[simulate]") {
   CHECK(T_world_sensor.linear()(2, 1) < 0);  // image down is world down
 }
 
-TEST_CASE("dropped bodies rest on something and do not reach into each other", "[simulate]") {
-  const auto mesh = std::make_shared<Cloud>(make_shape("boulder", 1, 0.1));
-  std::vector<Body> bodies(6, Body{mesh, 1, Eigen::Isometry3d::Identity()});
-  Random random(5);
-  drop_bodies(bodies, 0.06, random);  // so close that they must pile up
-  double lowest = 1;
-  int piled = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Eigen::Matrix3Xd points =
-        bodies[i].T_world_body * Eigen::Matrix3Xd(mesh->points.transpose().cast<double>());
-    lowest = std::min(lowest, points.row(2).minCoeff());
-    piled += points.row(2).minCoeff() > 0.01;
-    CHECK(points.row(2).minCoeff() > -1e-9);
-    CHECK(bodies[i].T_world_body.translation().head<2>().norm() <= 0.06);
-    for (std::size_t k = 0; k < i; ++k) {  // in the frame of an earlier body
-      const Eigen::Matrix3Xd in_other = bodies[k].T_world_body.inverse() * points;
-      for (Eigen::Index v = 0; v < points.cols(); v += 500)
-        CHECK(winding_number(*mesh, in_other.col(v)) == Approx(0).margin(0.01));
-    }
-  }
-  CHECK(std::abs(lowest) < 1e-9);
-  CHECK(piled > 0);
+TEST_CASE("of a far ball's surface nearly half is seen, of a hidden one's nothing", "[simulate]") {
+  const Sensor sensor = find_sensor("laser");
+  const Body near = ball(0.1, {0, 0, 1.0}), hidden = ball(0.05, {0, 0, 1.5});
+  const Scan seen = scan({near, hidden}, sensor, kAtOrigin, 1);
+  CHECK(seen.views[0].surface == Approx(0.45).margin(0.01));  // (1 - r / d) / 2: a spherical cap
+  CHECK(seen.views[1].surface == 0);
+  // Half out of the image.
+  const double left_border = -sensor.camera.cx / sensor.camera.fx;
+  const Scan cut = scan({ball(0.1, {left_border, 0, 1.0})}, sensor, kAtOrigin, 1);
+  CHECK(cut.views[0].surface == Approx(0.225).margin(0.03));
+}
+
+TEST_CASE("an RGB-D image has shadows beside edges, holes and steps of disparity", "[simulate]") {
+  Sensor sensor = find_sensor("rgbd");
+  sensor.noise_z2 = 0;
+  const std::size_t pixels = sensor.width * sensor.height, row = 100 * sensor.width;
+  TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (i % sensor.width >= 300 && i % sensor.width < 310) truth.depth[i] = 0.9;
+  sensor.holes = 0;
+  const DepthImage image = take_image(truth, sensor, 3);
+  CHECK(image.values[row + 299] == 0);
+  CHECK(image.values[row + 310] == 0);
+  for (const std::size_t u : {298U, 300U, 309U, 311U}) CHECK(image.values[row + u] != 0);
+  const double steps = 1 / (0.9 * sensor.disparity_step);
+  CHECK(image.values[row + 305] == std::lround(1000 / (sensor.disparity_step * std::round(steps))));
+  CHECK(std::count(image.values.begin(), image.values.end(), 0) ==
+        static_cast<std::ptrdiff_t>(2 * sensor.height));
+  sensor.holes = 12;
+  const DepthImage with_holes = take_image(truth, sensor, 3);
+  const auto missing = std::count(with_holes.values.begin(), with_holes.values.end(), 0);
+  CHECK(missing > static_cast<std::ptrdiff_t>(2 * sensor.height + 100));
+  CHECK(missing < static_cast<std::ptrdiff_t>(2 * sensor.height + 12 * 160));
+}
+
+TEST_CASE("the sweep leaves rows out, unevenly", "[simulate]") {
+  const Sensor sensor = find_sensor("sweep");
+  const std::size_t pixels = sensor.width * sensor.height;
+  const TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
+  const DepthImage image = take_image(truth, sensor, 1);
+  constexpr std::size_t kBand = 60;
+  std::vector<int> kept(sensor.height / kBand);
+  for (std::size_t v = 0; v < kept.size() * kBand; ++v)
+    kept[v / kBand] += image.values[v * sensor.width] != 0;
+  const auto [least, most] = std::minmax_element(kept.begin(), kept.end());
+  CHECK(*least < 32);
+  CHECK(*least > 20);
+  CHECK(*most > 50);
 }

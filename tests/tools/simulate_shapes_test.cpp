@@ -48,7 +48,7 @@ TEST_CASE("every shape is closed, outward and of the size asked for", "[simulate
     const Cloud mesh = make_shape(name, 1, 0.2);
     CHECK(mesh.points.allFinite());
     CHECK(mesh.points.rows() >= 5000);
-    CHECK(mesh.points.rows() <= 20000);
+    CHECK(mesh.points.rows() <= 50000);
     CHECK(is_closed(mesh));
     CHECK(volume(mesh) > 0);
     const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();

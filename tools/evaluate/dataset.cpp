@@ -74,10 +74,7 @@ void measure_object(TrueObject& object) {
   const Eigen::RowVector3f low = object.points.colwise().minCoeff();
   const Eigen::RowVector3f high = object.points.colwise().maxCoeff();
   object.center = (0.5F * (low + high)).transpose().cast<double>();
-  const Eigen::Matrix3Xd ends = extreme_points(object.points);
-  for (Eigen::Index i = 0; i < ends.cols(); ++i)
-    object.diameter =
-        std::max(object.diameter, (ends.colwise() - ends.col(i)).colwise().norm().maxCoeff());
+  object.diameter = diameter_of(object.points);
 }
 
 }  // namespace dataset

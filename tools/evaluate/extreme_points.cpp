@@ -25,4 +25,12 @@ Eigen::Matrix3Xd extreme_points(const PointMatrix& points) {
   return extreme;
 }
 
+double diameter_of(const PointMatrix& points) {
+  const Eigen::Matrix3Xd ends = extreme_points(points);
+  double most = 0;
+  for (Eigen::Index i = 0; i < ends.cols(); ++i)
+    most = std::max(most, (ends.colwise() - ends.col(i)).colwise().norm().maxCoeff());
+  return most;
+}
+
 }  // namespace posevote

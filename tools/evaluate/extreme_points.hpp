@@ -11,4 +11,7 @@ namespace posevote {
 /// where the largest distances are.
 Eigen::Matrix3Xd extreme_points(const PointMatrix& points);
 
+/// The largest distance between two of them [m].
+double diameter_of(const PointMatrix& points);
+
 }  // namespace posevote

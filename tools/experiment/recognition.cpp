@@ -64,14 +64,8 @@ fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
   fs::path dataset = out / "replica";
   if (fs::exists(dataset)) return dataset;
   const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + command.name + "_scenes.yaml";
-  if (!fs::exists(spec))
-    throw std::invalid_argument("there is no replica of " + command.name +
-                                " yet; expected --dataset DIR");
-  const fs::path unfinished = out / "replica.unfinished";
-  fs::remove_all(unfinished);
   spdlog::info("no --dataset: making the replica");
-  simulate(spec, unfinished, command.quick ? find_protocol(command.name).quick_step : 1);
-  fs::rename(unfinished, dataset);
+  simulate(spec, dataset, command.quick ? find_protocol(command.name).quick_step : 1);
   return dataset;
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "nodes/write/write_ply.hpp"
+#include "tools/evaluate/extreme_points.hpp"
 
 namespace posevote {
 namespace {
@@ -61,14 +62,6 @@ std::string encode_png(const DepthImage& depth) {
 /// Rounded to 1e-9: beyond, mathematics libraries differ, and files should not.
 double rounded(double value) { return std::round(value * 1e9) / 1e9 + 0.0; }
 
-/// Largest distance between two points.
-double diameter(const PointMatrix& points) {
-  float most = 0;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    most = std::max(most, (points.rowwise() - points.row(i)).rowwise().squaredNorm().maxCoeff());
-  return std::sqrt(double{most});
-}
-
 ordered_json box(const PixelBox& box) { return {box.x, box.y, box.width, box.height}; }
 
 ordered_json pose(const Body& body, const Eigen::Isometry3d& T_world_sensor) {
@@ -83,29 +76,32 @@ ordered_json pose(const Body& body, const Eigen::Isometry3d& T_world_sensor) {
 }
 
 ordered_json info(const BodyView& view) {
-  return {{"bbox_obj", box(view.box_alone)}, {"bbox_visib", box(view.box_visible)},
-          {"px_count_all", view.alone},      {"px_count_valid", view.valid},
-          {"px_count_visib", view.visible},  {"visib_fract", rounded(view.fraction())}};
+  return {{"bbox_obj", box(view.box_alone)},
+          {"bbox_visib", box(view.box_visible)},
+          {"px_count_all", view.alone},
+          {"px_count_valid", view.valid},
+          {"px_count_visib", view.visible},
+          {"surface_fract", rounded(view.surface)},
+          {"visib_fract", rounded(view.fraction())}};
 }
 
 }  // namespace
 
 BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
-  if (fs::exists(out_) && (!fs::is_directory(out_) || !fs::is_empty(out_)))
-    throw std::invalid_argument(out_.string() + ": is not an empty folder; choose another --out");
   for (const fs::path& folder :
        {out_ / "models", out_ / "test" / six_digits(kSceneId) / "depth", out_ / "scans"})
     fs::create_directories(folder);  // std::filesystem_error is a runtime_error that names it
 }
 
-void BopWriter::add_model(int obj_id, const Cloud& mesh) {
+void BopWriter::add_model(int obj_id, const Cloud& mesh, bool is_round) {
   write_ply(out_ / "models" / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
-  ordered_json entry{{"diameter", rounded(diameter(mesh.points) * 1000)}};
+  ordered_json entry{{"diameter", rounded(diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f size = mesh.points.colwise().maxCoeff() - low;
   const std::string axes[3] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) entry["min_" + axes[axis]] = rounded(low[axis] * 1000.0);
   for (int axis = 0; axis < 3; ++axis) entry["size_" + axes[axis]] = rounded(size[axis] * 1000.0);
+  if (is_round) entry["symmetries_continuous"] = {{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}};
   models_info_[std::to_string(obj_id)] = entry;
 }
 

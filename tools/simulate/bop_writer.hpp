@@ -13,11 +13,11 @@ namespace posevote {
 
 class BopWriter {
  public:
-  /// Makes the folder. Throws std::invalid_argument where `out` exists and is no empty folder, and
-  /// std::runtime_error where it cannot be made.
+  /// Makes the folder. Throws std::runtime_error where it cannot be made.
   explicit BopWriter(std::filesystem::path out);
 
-  void add_model(int obj_id, const Cloud& mesh);
+  /// `is_round`: it looks the same however it is turned about z.
+  void add_model(int obj_id, const Cloud& mesh, bool is_round);
   /// The next image (0, 1 ...) of scene 1. Bodies with an obj_id of 0 are not part of the truth.
   void add_image(const std::vector<Body>& bodies, const Sensor& sensor,
                  const Eigen::Isometry3d& T_world_sensor, const Scan& scan);

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <stdexcept>
 
 #include "graph/parallel.hpp"
 #include "tools/simulate/ray_caster.hpp"
@@ -13,30 +11,6 @@ namespace posevote {
 namespace {
 
 constexpr int kNothing = -1;
-
-const std::map<std::string, Sensor>& sensors() {
-  // The laser's image has fine units, so that rounding adds nothing to its noise. The noise of the
-  // RGB-D camera is that of a Kinect (Khoshelham, Elberink 2012).
-  static const std::map<std::string, Sensor> known{
-      {"laser", {800, 600, {1100, 1100, 399.5, 299.5, 0.05}, 0.0003, 0, 0.17}},
-      {"rgbd", {640, 480, {570, 570, 319.5, 239.5, 1.0}, 0, 0.001425, 0.2}}};
-  return known;
-}
-
-Eigen::Vector3d direction_of(const Camera& camera, std::size_t u, std::size_t v) {
-  return {(static_cast<double>(u) - camera.cx) / camera.fx,
-          (static_cast<double>(v) - camera.cy) / camera.fy, 1};
-}
-
-/// What the sensor reports of a hit; 0: nothing. Directions have z = 1, so distances are depths.
-std::uint16_t measure(const RayCaster::Hit& hit, double direction_length, const Sensor& sensor,
-                      Random random) {
-  if (hit.cosine < sensor.grazing_cosine) return 0;
-  const double deviation = sensor.noise + sensor.noise_z2 * hit.distance * hit.distance;
-  const double depth = hit.distance + deviation * random.normal() / direction_length;
-  const double raw = std::round(depth * 1000 / sensor.camera.depth_scale);
-  return raw >= 1 && raw <= 65535 ? static_cast<std::uint16_t>(raw) : std::uint16_t{0};
-}
 
 /// The pixels that a body can cover.
 PixelBox bounds(const std::vector<Eigen::Vector3f>& vertices, const Sensor& sensor) {
@@ -68,62 +42,93 @@ void grow(PixelBox& box, int x, int y) {
   box.width = right - box.x, box.height = bottom - box.y;
 }
 
-/// Counts a body's pixels as if it were alone, and those where `owner` says it is seen.
-BodyView view_of(const Body& body, int index, const Sensor& sensor,
-                 const Eigen::Isometry3d& T_sensor_world, const std::vector<int>& owner,
-                 const DepthImage& depth) {
+/// A scene as the sensor sees it.
+struct Shot {
+  const Sensor& sensor;
+  const RayCaster& caster;
+  TrueDepth truth;
+  std::vector<int> owner;  ///< index of the body that each pixel shows
+};
+
+Shot shoot(const RayCaster& caster, const Sensor& sensor) {
+  const std::size_t pixels = sensor.width * sensor.height;
+  Shot shot{sensor,
+            caster,
+            {std::vector<double>(pixels), std::vector<double>(pixels)},
+            std::vector<int>(pixels, kNothing)};
+  graph::parallel_for(sensor.height, 4, [&](std::size_t v) {
+    for (std::size_t u = 0; u < sensor.width; ++u) {
+      const auto hit = caster.first_hit(ray_of(sensor.camera, u, v));
+      if (!hit) continue;
+      const std::size_t pixel = v * sensor.width + u;
+      shot.owner[pixel] = static_cast<int>(hit->body);
+      shot.truth.depth[pixel] = hit->distance;  // rays have z = 1
+      shot.truth.cosine[pixel] = hit->cosine;
+    }
+  });
+  return shot;
+}
+
+/// Counts a body's pixels as if it were alone, and those that it is seen in.
+BodyView pixels_of(const Body& body, int index, const Eigen::Isometry3d& T_sensor_world,
+                   const Shot& shot, const DepthImage& depth) {
   const RayCaster alone({body}, T_sensor_world);
-  const PixelBox box = bounds(alone.vertices(0), sensor);
+  const PixelBox box = bounds(alone.vertices(0), shot.sensor);
   BodyView view;
   for (int y = box.y; y < box.y + box.height; ++y)
     for (int x = box.x; x < box.x + box.width; ++x) {
       const auto u = static_cast<std::size_t>(x), v = static_cast<std::size_t>(y);
-      if (!alone.first_hit(direction_of(sensor.camera, u, v))) continue;
-      const std::size_t pixel = v * sensor.width + u;
+      if (!alone.first_hit(ray_of(shot.sensor.camera, u, v))) continue;
+      const std::size_t pixel = v * shot.sensor.width + u;
       ++view.alone;
       grow(view.box_alone, x, y);
       if (depth.values[pixel] != 0) ++view.valid;
-      if (owner[pixel] != index) continue;
+      if (shot.owner[pixel] != index) continue;
       ++view.visible;
       grow(view.box_visible, x, y);
     }
   return view;
 }
 
+/// Whether the sensor sees a point of a body: its ray meets the body first, and there.
+bool is_seen(const Eigen::Vector3d& point, std::size_t body, const Shot& shot) {
+  constexpr double kSame = 0.0002;  // [m]
+  if (point.z() < 1e-3) return false;
+  const Camera& camera = shot.sensor.camera;
+  const double u = camera.fx * point.x() / point.z() + camera.cx;
+  const double v = camera.fy * point.y() / point.z() + camera.cy;
+  if (u < -0.5 || u > static_cast<double>(shot.sensor.width) - 0.5 || v < -0.5 ||
+      v > static_cast<double>(shot.sensor.height) - 0.5)
+    return false;
+  const auto hit = shot.caster.first_hit(point / point.z());
+  return hit && hit->body == body && std::abs(hit->distance - point.z()) < kSame;
+}
+
+double seen_surface(const Body& body, std::size_t index, const Shot& shot) {
+  const std::vector<Eigen::Vector3f>& vertices = shot.caster.vertices(index);
+  double all = 0, seen = 0;
+  for (Eigen::Index face = 0; face < body.mesh->faces.rows(); ++face) {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) corners.col(k) = vertices[body.mesh->faces(face, k)].cast<double>();
+    const double area =
+        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
+    all += area;
+    if (is_seen(corners.rowwise().mean(), index, shot)) seen += area;
+  }
+  return all > 0 ? seen / all : 0;
+}
+
 }  // namespace
-
-const std::vector<std::string>& sensor_names() {
-  static const std::vector<std::string> names{"laser", "rgbd"};
-  return names;
-}
-
-Sensor find_sensor(const std::string& name) {
-  const auto found = sensors().find(name);
-  if (found == sensors().end()) throw std::invalid_argument("no sensor is called " + name);
-  return found->second;
-}
 
 Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
           const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed) {
   const Eigen::Isometry3d T_sensor_world = T_world_sensor.inverse();
   const RayCaster caster(bodies, T_sensor_world);
-  const std::size_t pixels = sensor.width * sensor.height;
-  Scan made{{sensor.width, sensor.height, std::vector<std::uint16_t>(pixels)}, {}};
-  std::vector<int> owner(pixels, kNothing);
-  graph::parallel_for(sensor.height, 4, [&](std::size_t v) {
-    for (std::size_t u = 0; u < sensor.width; ++u) {
-      const Eigen::Vector3d direction = direction_of(sensor.camera, u, v);
-      const auto hit = caster.first_hit(direction);
-      if (!hit) continue;
-      const std::size_t pixel = v * sensor.width + u;
-      owner[pixel] = static_cast<int>(hit->body);
-      made.depth.values[pixel] = measure(*hit, direction.norm(), sensor, Random(seed, pixel));
-    }
-  });
-  made.views.resize(bodies.size());
+  const Shot shot = shoot(caster, sensor);
+  Scan made{take_image(shot.truth, sensor, seed), std::vector<BodyView>(bodies.size())};
   graph::parallel_for(bodies.size(), 1, [&](std::size_t i) {
-    made.views[i] =
-        view_of(bodies[i], static_cast<int>(i), sensor, T_sensor_world, owner, made.depth);
+    made.views[i] = pixels_of(bodies[i], static_cast<int>(i), T_sensor_world, shot, made.depth);
+    made.views[i].surface = seen_surface(bodies[i], i, shot);
   });
   return made;
 }
@@ -136,7 +141,7 @@ Cloud points_of(const DepthImage& depth, const Camera& camera) {
     if (depth.values[i] == 0) continue;
     const double z = depth.values[i] * camera.depth_scale * 0.001;
     cloud.points.row(count++) =
-        (z * direction_of(camera, i % depth.width, i / depth.width)).cast<float>();
+        (z * ray_of(camera, i % depth.width, i / depth.width)).cast<float>();
   }
   cloud.points.conservativeResize(count, 3);
   return cloud;

@@ -1,42 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sensors, and what they see of a scene. Sensor frame: x right, y down, z forward.
+// What a sensor sees of a scene.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "nodes/data/files.hpp"
-#include "nodes/load/png_depth.hpp"
 #include "tools/simulate/scene.hpp"
+#include "tools/simulate/sensor.hpp"
 
 namespace posevote {
-
-/// A pinhole range sensor. The error along a ray has a deviation of noise + noise_z2 x depth^2.
-struct Sensor {
-  std::size_t width = 0, height = 0;
-  Camera camera;
-  double noise = 0;           ///< [m]
-  double noise_z2 = 0;        ///< [1/m]
-  double grazing_cosine = 0;  ///< no return from surfaces seen at less than this
-};
-
-/// Names of sensors: "laser", "rgbd".
-const std::vector<std::string>& sensor_names();
-/// Throws std::invalid_argument for an unknown name.
-Sensor find_sensor(const std::string& name);
 
 /// A rectangle of pixels; empty: width 0.
 struct PixelBox {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// How much of a body is seen, in pixels.
+/// How much of a body is seen, in pixels and of its surface.
 struct BodyView {
   int alone = 0;    ///< if nothing else were there
   int visible = 0;  ///< of those, not hidden by another body
   int valid = 0;    ///< of `alone`, those where the image has a depth, of whatever body
   PixelBox box_alone, box_visible;
+  double surface = 0;  ///< area of the triangles whose middles are seen, over that of all
   double fraction() const { return alone > 0 ? static_cast<double>(visible) / alone : 0; }
 };
 

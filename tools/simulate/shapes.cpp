@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tools/simulate/fields.hpp"
+#include "tools/simulate/goods.hpp"
 #include "tools/simulate/surface_nets.hpp"
 
 namespace posevote {
@@ -147,10 +148,19 @@ Field figure(Random& random) {
   return roughen(body, random, 4, 3, 0.012);
 }
 
-const std::map<std::string, Field (*)(Random&)>& shapes() {
-  static const std::map<std::string, Field (*)(Random&)> known{
-      {"boulder", boulder}, {"coral", coral},   {"figure", figure},
-      {"horn", horn},       {"kettle", kettle}, {"wrench", wrench}};
+struct Shape {
+  Field (*field)(Random&);
+  int cells;  ///< that mesh half the space: more where walls are thin
+  bool is_round = false;
+};
+
+const std::map<std::string, Shape>& shapes() {
+  constexpr int kRich = 42, kFine = 64;
+  static const std::map<std::string, Shape> known{
+      {"boulder", {boulder, kRich}}, {"coral", {coral, kRich}},   {"figure", {figure, kRich}},
+      {"horn", {horn, kRich}},       {"kettle", {kettle, kRich}}, {"wrench", {wrench, kRich}},
+      {"camera", {camera, kFine}},   {"cup", {cup, kFine, true}}, {"joystick", {joystick, kFine}},
+      {"juice", {juice, kFine}},     {"milk", {milk, kFine}},     {"shampoo", {shampoo, kFine}}};
   return known;
 }
 
@@ -165,15 +175,24 @@ bool is_manifold(const Cloud& mesh) {
   return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
-Cloud mesh_of(const Field& field) {
-  for (int cells = 42; cells <= 56; ++cells) {  // a slightly finer grid cuts the sheets elsewhere
-    Cloud mesh = surface_nets(field, kExtent, kExtent / cells);
+Cloud mesh_of(const Field& field, int cells) {
+  constexpr int kTries = 15;  // a slightly finer grid cuts the sheets elsewhere
+  for (int i = 0; i < kTries; ++i) {
+    Cloud mesh = surface_nets(field, kExtent, kExtent / (cells + i));
     if (is_manifold(mesh)) return mesh;
   }
   throw std::runtime_error("has parts too thin to mesh; choose another seed");
 }
 
+const Shape& find_shape(const std::string& name) {
+  const auto found = shapes().find(name);
+  if (found == shapes().end()) throw std::invalid_argument("no shape is called " + name);
+  return found->second;
+}
+
 }  // namespace
+
+bool is_round_shape(const std::string& shape) { return find_shape(shape).is_round; }
 
 const std::vector<std::string>& shape_names() {
   static const std::vector<std::string> names = [] {
@@ -185,10 +204,9 @@ const std::vector<std::string>& shape_names() {
 }
 
 Cloud make_shape(const std::string& shape, std::uint64_t seed, double size) {
-  const auto found = shapes().find(shape);
-  if (found == shapes().end()) throw std::invalid_argument("no shape is called " + shape);
+  const Shape& kind = find_shape(shape);
   Random random(seed);
-  Cloud mesh = mesh_of(found->second(random));
+  Cloud mesh = mesh_of(kind.field(random), kind.cells);
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   mesh.points.rowwise() -= 0.5F * (low + high);

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/simulate.hpp"
 
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
 #include <numbers>
 #include <stdexcept>
 
+#include "graph/parallel.hpp"
 #include "tools/simulate/bop_writer.hpp"
+#include "tools/simulate/physics.hpp"
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/scene.hpp"
 #include "tools/simulate/shapes.hpp"
@@ -13,61 +21,147 @@
 namespace posevote {
 namespace {
 
-using Meshes = std::vector<std::shared_ptr<const Cloud>>;
+namespace fs = std::filesystem;
 
 constexpr double kTableSide = 1.2;      // [m]
-constexpr double kTargetHeight = 0.05;  // the sensor looks at what lies on the table [m]
+constexpr double kTargetHeight = 0.05;  // the sensor looks at what lies on the ground [m]
+constexpr int kArrangements = 100;      // tried for one image, before giving up
+constexpr std::size_t kClutter = 12;    // different bodies that are no models
 
-Meshes make_models(const Spec& spec) {
-  Meshes meshes;
-  for (const ModelSpec& model : spec.models)
-    meshes.push_back(std::make_shared<Cloud>(
-        make_shape(model.shape, static_cast<std::uint64_t>(model.seed), model.size)));
-  return meshes;
+using Mesh = std::shared_ptr<const Cloud>;
+
+/// What all images share.
+struct Studio {
+  Spec spec;
+  std::vector<Mesh> models, clutter;
+};
+
+Mesh make_mesh(const std::string& shape, std::uint64_t seed, double size) {
+  return std::make_shared<const Cloud>(make_shape(shape, seed, size));
 }
 
-/// A body of any shape; its seed has 64 bits, those of models 30, so it is none of them.
-Body make_clutter(Random& random) {
-  const std::string& shape = shape_names()[random.next() % shape_names().size()];
-  const std::uint64_t seed = random.next() | 1ULL << 63U;
-  return {std::make_shared<Cloud>(make_shape(shape, seed, random.uniform(0.08, 0.2))), 0,
-          Eigen::Isometry3d::Identity()};
+/// Bodies of kinds that no model is of, as long as there are such kinds.
+std::vector<Mesh> make_clutter(const Spec& spec) {
+  std::vector<std::string> kinds = shape_names();
+  for (const ModelSpec& model : spec.models) std::erase(kinds, model.shape);
+  if (kinds.empty()) kinds = shape_names();
+  std::vector<Mesh> clutter(kClutter);
+  graph::parallel_for(kClutter, 1, [&](std::size_t i) {
+    Random random(static_cast<std::uint64_t>(spec.seed), ~std::uint64_t{i});  // no image's stream
+    clutter[i] = make_mesh(kinds[i % kinds.size()], random.next(), random.uniform(0.08, 0.2));
+  });
+  return clutter;
 }
 
-/// Objects and clutter in mixed order, so that either may lie on the other; the table last.
-std::vector<Body> arrange(const SceneSpec& scene, const Meshes& models, Random& random) {
+Studio open_studio(const std::string& spec_file) {
+  Studio studio{read_spec(spec_file), {}, {}};
+  for (const ModelSpec& model : studio.spec.models)
+    studio.models.push_back(
+        make_mesh(model.shape, static_cast<std::uint64_t>(model.seed), model.size));
+  const auto wants_clutter = [](const SceneSpec& scene) { return scene.clutter > 0; };
+  if (std::any_of(studio.spec.scenes.begin(), studio.spec.scenes.end(), wants_clutter))
+    studio.clutter = make_clutter(studio.spec);
+  return studio;
+}
+
+/// Objects and clutter in mixed order, so that either may lie on the other; the ground last.
+std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& random) {
+  const bool bin = scene.ground == "bin";
   std::vector<Body> bodies;
   for (const int obj_id : scene.objects)
-    bodies.push_back(
-        {models[static_cast<std::size_t>(obj_id) - 1], obj_id, Eigen::Isometry3d::Identity()});
-  for (int i = 0; i < scene.clutter; ++i) bodies.push_back(make_clutter(random));
+    bodies.push_back({studio.models[static_cast<std::size_t>(obj_id) - 1], obj_id,
+                      Eigen::Isometry3d::Identity()});
+  for (int i = 0; i < scene.clutter; ++i)
+    bodies.push_back({studio.clutter[random.next() % kClutter], 0, Eigen::Isometry3d::Identity()});
   for (std::size_t i = bodies.size(); i > 1; --i)
     std::swap(bodies[i - 1], bodies[random.next() % i]);
-  drop_bodies(bodies, scene.radius, random);
-  if (scene.table) bodies.push_back(make_table(kTableSide));
+  settle(bodies, scene.radius, bin, random);
+  if (scene.ground != "unseen")
+    bodies.push_back(bin ? make_bin(scene.radius) : make_table(kTableSide));
   return bodies;
+}
+
+struct Image {
+  std::vector<Body> bodies;
+  Sensor sensor;
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+  Scan scan;
+};
+
+/// Whether as much is seen of each object as the scene asks for.
+bool fits(const Image& image, const SceneSpec& scene) {
+  for (std::size_t i = 0; i < image.bodies.size(); ++i)
+    if (const double seen = image.scan.views[i].surface;
+        image.bodies[i].obj_id != 0 && (seen < scene.least_surface || seen > scene.most_surface))
+      return false;
+  return true;
+}
+
+Image make_image(const Studio& studio, std::size_t index) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  const SceneSpec& scene = studio.spec.scenes[index];
+  Image image;
+  image.sensor = find_sensor(scene.sensor);
+  image.T_world_sensor = look_at({0, 0, kTargetHeight}, scene.distance, scene.elevation * kDegree,
+                                 scene.azimuth * kDegree);
+  Random random(static_cast<std::uint64_t>(studio.spec.seed), index);
+  for (int i = 0; i < kArrangements; ++i) {
+    image.bodies = arrange(scene, studio, random);
+    image.scan = scan(image.bodies, image.sensor, image.T_world_sensor, random.next());
+    if (fits(image, scene)) return image;
+  }
+  throw std::runtime_error("image " + std::to_string(index) + ": in " +
+                           std::to_string(kArrangements) +
+                           " arrangements some object showed less than least_surface of itself, or "
+                           "more than most_surface");
+}
+
+/// Makes images side by side and writes them in order.
+void make_images(const Studio& studio, std::size_t step, BopWriter& writer) {
+  namespace tbb = oneapi::tbb;
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kBetweenReports(5);
+  const std::size_t all = (studio.spec.scenes.size() + step - 1) / step;
+  std::size_t begun = 0, written = 0;
+  Clock::time_point reported = Clock::now();
+  tbb::parallel_pipeline(
+      2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                          [&](tbb::flow_control& control) {
+                                            if (begun == all) control.stop();
+                                            return step * begun++;
+                                          }) &
+          tbb::make_filter<std::size_t, std::shared_ptr<Image>>(
+              tbb::filter_mode::parallel,
+              [&](std::size_t i) { return std::make_shared<Image>(make_image(studio, i)); }) &
+          tbb::make_filter<std::shared_ptr<Image>, void>(
+              tbb::filter_mode::serial_in_order, [&](const std::shared_ptr<Image>& image) {
+                writer.add_image(image->bodies, image->sensor, image->T_world_sensor, image->scan);
+                ++written;
+                if (Clock::now() - reported < kBetweenReports) return;
+                reported = Clock::now();
+                spdlog::info("{} of {} images", written, all);
+              }));
 }
 
 }  // namespace
 
-void simulate(const std::string& spec_file, const std::filesystem::path& out, std::size_t step) {
-  const Spec spec = read_spec(spec_file);
-  BopWriter writer(out);
-  const Meshes models = make_models(spec);
-  for (std::size_t i = 0; i < models.size(); ++i)
-    writer.add_model(static_cast<int>(i) + 1, *models[i]);
-  for (std::size_t i = 0; i < spec.scenes.size(); i += step) {
-    const SceneSpec& scene = spec.scenes[i];
-    Random random(static_cast<std::uint64_t>(spec.seed), i);
-    const std::vector<Body> bodies = arrange(scene, models, random);
-    constexpr double kDegree = std::numbers::pi / 180;
-    const Eigen::Isometry3d T_world_sensor = look_at(
-        {0, 0, kTargetHeight}, scene.distance, scene.elevation * kDegree, scene.azimuth * kDegree);
-    const Sensor sensor = find_sensor(scene.sensor);
-    writer.add_image(bodies, sensor, T_world_sensor,
-                     scan(bodies, sensor, T_world_sensor, random.next()));
-  }
+void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
+  const Studio studio = open_studio(spec_file);
+  if (fs::exists(out) && (!fs::is_directory(out) || !fs::is_empty(out)))
+    throw std::invalid_argument(out.string() + ": is not an empty folder; choose another --out");
+  // Under its name there is a whole set or none.
+  const fs::path folder = out.has_filename() ? out : out.parent_path();
+  const fs::path unfinished = folder.string() + ".unfinished";
+  fs::remove_all(unfinished);
+  BopWriter writer(unfinished);
+  for (std::size_t i = 0; i < studio.models.size(); ++i)
+    writer.add_model(static_cast<int>(i) + 1, *studio.models[i],
+                     is_round_shape(studio.spec.models[i].shape));
+  make_images(studio, step, writer);
   writer.finish();
+  fs::remove(folder);
+  fs::rename(unfinished, folder);
 }
 
 }  // namespace posevote

@@ -32,11 +32,15 @@ const std::vector<ParamSpec>& model_params() {
 const std::vector<ParamSpec>& scene_params() {
   static const std::vector<ParamSpec> params{
       make_param("count", &SceneSpec::count, "", "Images of this kind.", in_range(1, 10000)),
-      make_param("table", &SceneSpec::table, "", "Whether the sensor sees the table.",
-                 graph::anything()),
+      make_param("ground", &SceneSpec::ground, "", "What bodies lie on.",
+                 one_of({"table", "bin", "unseen"})),
       make_param("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
       make_param("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
       make_param("radius", &SceneSpec::radius, "m", "Bodies drop inside.", in_range(0.01, 1)),
+      make_param("least_surface", &SceneSpec::least_surface, "", "Seen of each object.",
+                 in_range(0, 0.5)),
+      make_param("most_surface", &SceneSpec::most_surface, "", "Seen of each object.",
+                 in_range(0.1, 1)),
       make_param("distance", &SceneSpec::distance, "m", "Sensor to table.", in_range(0.3, 3)),
       make_param("elevation", &SceneSpec::elevation, "deg", "Above table.", in_range(10, 90)),
       make_param("azimuth", &SceneSpec::azimuth, "deg", "Around table.", in_range(-360, 360))};

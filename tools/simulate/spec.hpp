@@ -15,12 +15,14 @@ struct ModelSpec {
 
 /// One image, or several of a kind.
 struct SceneSpec {
-  int count = 1;  ///< images, each with another arrangement of its bodies
-  bool table = true;
+  int count = 1;                 ///< images, each with another arrangement of its bodies
+  std::string ground = "table";  ///< or "bin", or "unseen"
   std::string sensor = "laser";
   std::vector<int> objects;  ///< obj_id of each instance
   int clutter = 3;           ///< bodies that are no models
-  double radius = 0.15;      ///< within which bodies are dropped [m]
+  double radius = 0.15;      ///< within which bodies are dropped; of a bin, half its side [m]
+  double least_surface = 0;  ///< that is seen of each object's; else bodies are dropped anew
+  double most_surface = 1;   ///< likewise
   double distance = 0.9;     ///< from sensor to the middle of the table [m]
   double elevation = 50;     ///< of the sensor above the table [deg]
   double azimuth = 0;        ///< [deg]

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/physics.hpp"
+
+#include <btBulletDynamicsCommon.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace posevote {
+namespace {
+
+// Bullet is tuned for bodies of about one unit, so a unit is 0.1 m.
+constexpr double kUnits = 10;                         // a metre
+constexpr double kMargin = 0.0005, kGap = 0.01;       // [m]
+constexpr double kStep = 1.0 / 250;                   // [s]
+constexpr double kFall = 0.4, kLongest = 3;           // [s]
+constexpr double kStill = 0.01, kStillTurning = 0.1;  // [m/s], [rad/s]
+constexpr int kPieces = 6;                            // along the longest side
+
+btVector3 to_bullet(const Eigen::Vector3d& v) {
+  const Eigen::Vector3d scaled = v * kUnits;
+  return {static_cast<btScalar>(scaled.x()), static_cast<btScalar>(scaled.y()),
+          static_cast<btScalar>(scaled.z())};
+}
+
+Eigen::Vector3d corner(const Cloud& mesh, Eigen::Index face, int k) {
+  return mesh.points.row(mesh.faces(face, k)).transpose().cast<double>();
+}
+
+struct Mass {
+  double volume = 0;  // [m^3]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+};
+
+Mass mass_of(const Cloud& mesh) {
+  Mass mass;
+  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
+    const Eigen::Vector3d a = corner(mesh, face, 0), b = corner(mesh, face, 1),
+                          c = corner(mesh, face, 2);
+    const double part = a.dot(b.cross(c)) / 6;  // of the tetrahedron to the origin
+    mass.volume += part;
+    mass.center += part * (a + b + c) / 4;
+  }
+  mass.center /= mass.volume;
+  return mass;
+}
+
+/// The corners of each piece of a surface that cubes cut out of it.
+std::vector<std::set<std::uint32_t>> cut_up(const Cloud& mesh) {
+  const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
+  const double cube = (mesh.points.colwise().maxCoeff() - low).maxCoeff() / double{kPieces};
+  std::map<std::array<int, 3>, std::set<std::uint32_t>> pieces;
+  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
+    const Eigen::Vector3d middle =
+        (corner(mesh, face, 0) + corner(mesh, face, 1) + corner(mesh, face, 2)) / 3 -
+        low.transpose().cast<double>();
+    std::array<int, 3> key{};
+    for (int axis = 0; axis < 3; ++axis)
+      key[static_cast<std::size_t>(axis)] = static_cast<int>(middle[axis] / cube);
+    for (int k = 0; k < 3; ++k) pieces[key].insert(mesh.faces(face, k));
+  }
+  std::vector<std::set<std::uint32_t>> list;
+  for (auto& [key, corners] : pieces) list.push_back(std::move(corners));
+  return list;
+}
+
+/// Of the corners, those that reach farthest in any of the 26 directions of a cube's neighbours:
+/// about their convex hull, of a size that collisions are found fast with.
+std::set<std::uint32_t> extremes(const Cloud& mesh, const std::set<std::uint32_t>& corners) {
+  std::set<std::uint32_t> found;
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3f direction(static_cast<float>(i % 3 - 1),
+                                    static_cast<float>(i / 3 % 3 - 1),
+                                    static_cast<float>(i / 9 - 1));
+    if (direction.isZero()) continue;
+    found.insert(
+        *std::max_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return mesh.points.row(a) * direction < mesh.points.row(b) * direction;
+        }));
+  }
+  return found;
+}
+
+/// A body in Bullet, its frame at the centre of its mass.
+class Solid {
+ public:
+  explicit Solid(const Cloud& mesh)
+      : center_(mass_of(mesh).center),
+        reach_((mesh.points.cast<double>().rowwise() - center_.transpose())
+                   .rowwise()
+                   .norm()
+                   .maxCoeff()) {
+    for (const std::set<std::uint32_t>& piece : cut_up(mesh)) add_hull(mesh, piece);
+    constexpr double kDensity = 300;  // [kg/m^3]
+    const auto mass = static_cast<btScalar>(kDensity * mass_of(mesh).volume);
+    btVector3 inertia(0, 0, 0);
+    compound_.calculateLocalInertia(mass, inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &compound_, inertia);
+    info.m_friction = 0.7F;
+    info.m_rollingFriction = 0.02F;
+    info.m_spinningFriction = 0.02F;
+    info.m_linearDamping = 0.05F;
+    info.m_angularDamping = 0.3F;
+    body_ = std::make_unique<btRigidBody>(info);
+  }
+
+  btRigidBody& body() { return *body_; }
+  double reach() const { return reach_; }  ///< from the centre [m]
+
+  void place(const Eigen::Vector3d& center, const Eigen::Quaterniond& q) {
+    const btQuaternion rotation(static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()),
+                                static_cast<btScalar>(q.z()), static_cast<btScalar>(q.w()));
+    body_->setWorldTransform(btTransform(rotation, to_bullet(center)));
+  }
+  Eigen::Isometry3d pose() const {
+    const btTransform& T = body_->getWorldTransform();
+    const btQuaternion q = T.getRotation();
+    Eigen::Isometry3d T_world_body(Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized());
+    const btVector3& t = T.getOrigin();
+    T_world_body.pretranslate(Eigen::Vector3d(t.x(), t.y(), t.z()) / kUnits);
+    return T_world_body * Eigen::Translation3d(-center_);
+  }
+  double top() const {
+    btVector3 low, high;
+    body_->getAabb(low, high);
+    return high.z() / kUnits;
+  }
+  bool is_still() const {
+    return !body_->isActive() || (body_->getLinearVelocity().length() < kStill * kUnits &&
+                                  body_->getAngularVelocity().length() < kStillTurning);
+  }
+
+ private:
+  void add_hull(const Cloud& mesh, const std::set<std::uint32_t>& corners) {
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const std::uint32_t i : extremes(mesh, corners))
+      hull->addPoint(to_bullet(mesh.points.row(i).transpose().cast<double>() - center_), false);
+    hull->recalcLocalAabb();
+    hull->setMargin(static_cast<btScalar>(kMargin * kUnits));
+    compound_.addChildShape(btTransform::getIdentity(), hull.get());
+    hulls_.push_back(std::move(hull));
+  }
+
+  Eigen::Vector3d center_;
+  double reach_;
+  std::vector<std::unique_ptr<btConvexHullShape>> hulls_;
+  btCompoundShape compound_;
+  std::unique_ptr<btRigidBody> body_;
+};
+
+/// The ground, invisible walls that are asked for, and what has been dropped so far.
+class World {
+ public:
+  World() {
+    world_.setGravity(to_bullet({0, 0, -9.81}));
+    world_.getSolverInfo().m_numIterations = 30;
+    world_.getSolverInfo().m_splitImpulse = 1;
+    add_plane({0, 0, 1}, 0);
+  }
+  ~World() {
+    for (int i = world_.getNumCollisionObjects() - 1; i >= 0; --i)
+      world_.removeCollisionObject(world_.getCollisionObjectArray()[i]);
+  }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// What lies off the plane against its normal is solid; `offset`: of the plane along it [m].
+  void add_plane(const Eigen::Vector3d& normal, double offset) {
+    auto shape = std::make_unique<btStaticPlaneShape>(to_bullet(normal).normalized(),
+                                                      static_cast<btScalar>(offset * kUnits));
+    shape->setMargin(static_cast<btScalar>(kMargin * kUnits));
+    auto plane = std::make_unique<btCollisionObject>();
+    plane->setCollisionShape(shape.get());
+    plane->setFriction(0.7F);
+    world_.addCollisionObject(plane.get());
+    shapes_.push_back(std::move(shape));
+    planes_.push_back(std::move(plane));
+  }
+  void add(Solid& solid) { world_.addRigidBody(&solid.body()); }
+  void step() { world_.stepSimulation(static_cast<btScalar>(kStep), 0); }
+
+ private:
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::unique_ptr<btStaticPlaneShape>> shapes_;
+  std::vector<std::unique_ptr<btCollisionObject>> planes_;
+};
+
+/// A place over the disc; inside of walls, if there are any, as far as the body's size allows.
+Eigen::Vector3d place_over(double radius, bool walls, double reach, double height, Random& random) {
+  const double free = walls ? std::max(0.0, radius - reach) : radius;
+  Eigen::Vector3d place;
+  do {
+    place = {random.uniform(-free, free), random.uniform(-free, free), height};
+  } while (!walls && place.head<2>().norm() > radius);
+  return place;
+}
+
+}  // namespace
+
+void settle(std::vector<Body>& bodies, double radius, bool walls, Random& random) {
+  std::vector<std::unique_ptr<Solid>> solids;  // outlive the world
+  World world;
+  if (walls)
+    for (const Eigen::Vector3d& inward : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
+                                          Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
+      world.add_plane(inward, -radius);
+  for (const Body& body : bodies) {
+    double top = 0;
+    for (const auto& solid : solids) top = std::max(top, solid->top());
+    Solid& solid = *solids.emplace_back(std::make_unique<Solid>(*body.mesh));
+    const double height = top + solid.reach() + kGap;
+    solid.place(place_over(radius, walls, solid.reach(), height, random), random.rotation());
+    world.add(solid);
+    for (double t = 0; t < kFall; t += kStep) world.step();
+  }
+  const auto is_still = [](const auto& solid) { return solid->is_still(); };
+  for (double t = 0; t < kLongest; t += kStep) {
+    world.step();
+    if (t > kFall && std::all_of(solids.begin(), solids.end(), is_still)) break;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].T_world_body = solids[i]->pose();
+}
+
+}  // namespace posevote

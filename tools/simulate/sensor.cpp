@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "graph/parallel.hpp"
+#include "tools/simulate/random.hpp"
+
+namespace posevote {
+namespace {
+
+const std::map<std::string, Sensor>& sensors() {
+  static const std::map<std::string, Sensor> known = [] {
+    // Its image has fine units, so that rounding adds nothing to its noise.
+    const Camera fine{1100, 1100, 399.5, 299.5, 0.05};
+    Sensor laser{800, 600, fine, 0.0003, 0, 0.17, 0, 0, 0, false};
+    // A stripe that is moved by hand: coarser and uneven from row to row.
+    Sensor sweep{800, 600, fine, 0.0005, 0, 0.2, 0, 0, 0, true};
+    // A Kinect: disparity in eighths of a pixel, noise of half such a step (Khoshelham, Elberink
+    // 2012, eq. 11), the projector's shadow beside edges, holes.
+    Sensor rgbd{640, 480,  {570, 570, 319.5, 239.5, 1.0}, 0, 0.001425, 0.2, 0.00285, 0.02,
+                12,  false};
+    return std::map<std::string, Sensor>{{"laser", laser}, {"sweep", sweep}, {"rgbd", rgbd}};
+  }();
+  return known;
+}
+
+/// What the sensor reports of a hit in units of its image; 0: nothing.
+std::uint16_t measure(double depth, double cosine, double ray_length, const Sensor& sensor,
+                      Random random) {
+  if (depth <= 0 || cosine < sensor.grazing_cosine) return 0;
+  const double distance = depth * ray_length;
+  const double deviation = sensor.noise + sensor.noise_z2 * distance * distance;
+  double measured = depth + deviation * random.normal() / ray_length;
+  if (sensor.disparity_step > 0)
+    measured = 1 / (sensor.disparity_step *
+                    std::max(1.0, std::round(1 / (measured * sensor.disparity_step))));
+  const double raw = std::round(measured * 1000 / sensor.camera.depth_scale);
+  return raw >= 1 && raw <= 65535 ? static_cast<std::uint16_t>(raw) : std::uint16_t{0};
+}
+
+/// Whether a neighbour in the row stands out before the pixel: one of the two eyes is blind there.
+bool behind_edge(const TrueDepth& truth, const Sensor& sensor, std::size_t u, std::size_t v) {
+  if (sensor.edge_jump <= 0) return false;
+  const std::size_t row = v * sensor.width;
+  const double here = truth.depth[row + u];
+  for (std::size_t x = u > 0 ? u - 1 : u; x <= std::min(u + 1, sensor.width - 1); ++x)
+    if (const double there = truth.depth[row + x]; there > 0 && here - there > sensor.edge_jump)
+      return true;
+  return false;
+}
+
+void punch_holes(DepthImage& image, int holes, Random random) {
+  constexpr double kLeast = 2, kMost = 7;  // radius [pixels]
+  const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
+  for (int i = 0; i < holes; ++i) {
+    const double x = random.uniform(0, width), y = random.uniform(0, height);
+    const double radius = random.uniform(kLeast, kMost);
+    for (std::size_t pixel = 0; pixel < image.values.size(); ++pixel) {
+      const double dx = static_cast<double>(pixel % image.width) - x;
+      const double dy = static_cast<double>(pixel / image.width) - y;
+      if (dx * dx + dy * dy < radius * radius) image.values[pixel] = 0;
+    }
+  }
+}
+
+/// Keeps a row each time the stripe has moved on by one: fast where the wave is high.
+void thin_rows(DepthImage& image, Random random) {
+  const double phase = random.uniform(0, 6.283185307179586);
+  double moved = 0;
+  for (std::size_t v = 0; v < image.height; ++v) {
+    const double part = static_cast<double>(v) / static_cast<double>(image.height);
+    moved += 0.7 + 0.3 * std::sin(phase + 12 * part);  // 0.4 to 1 of the rows
+    if (moved >= 1) {
+      moved -= 1;
+      continue;
+    }
+    const auto row = image.values.begin() + static_cast<std::ptrdiff_t>(v * image.width);
+    std::fill(row, row + static_cast<std::ptrdiff_t>(image.width), std::uint16_t{0});
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& sensor_names() {
+  static const std::vector<std::string> names{"laser", "sweep", "rgbd"};
+  return names;
+}
+
+Sensor find_sensor(const std::string& name) {
+  const auto found = sensors().find(name);
+  if (found == sensors().end()) throw std::invalid_argument("no sensor is called " + name);
+  return found->second;
+}
+
+Eigen::Vector3d ray_of(const Camera& camera, std::size_t u, std::size_t v) {
+  return {(static_cast<double>(u) - camera.cx) / camera.fx,
+          (static_cast<double>(v) - camera.cy) / camera.fy, 1};
+}
+
+DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed) {
+  DepthImage image{sensor.width, sensor.height, std::vector<std::uint16_t>(truth.depth.size())};
+  graph::parallel_for(sensor.height, 4, [&](std::size_t v) {
+    for (std::size_t u = 0; u < sensor.width; ++u) {
+      const std::size_t pixel = v * sensor.width + u;
+      if (behind_edge(truth, sensor, u, v)) continue;
+      image.values[pixel] =
+          measure(truth.depth[pixel], truth.cosine[pixel], ray_of(sensor.camera, u, v).norm(),
+                  sensor, Random(seed, pixel));
+    }
+  });
+  const std::uint64_t beyond = truth.depth.size();  // streams that no pixel has
+  punch_holes(image, sensor.holes, Random(seed, beyond));
+  if (sensor.uneven) thin_rows(image, Random(seed, beyond + 1));
+  return image;
+}
+
+}  // namespace posevote
