@@ -41,7 +41,7 @@ TEST_CASE("experiment uwa: methods side by side on a set with true poses", "[exp
   REQUIRE(result.status == 0);
   CHECK(std::regex_search(result.output, std::regex("posevote +1.000 +1.000 +1.000 +1.000")));
   CHECK(std::regex_search(result.output, std::regex("ransac +[01]")));
-  CHECK(read_text(folder / "out/uwa.csv").find("posevote,pose,2,2,2,1,1,1,1,") !=
+  CHECK(read_text(folder / "out/uwa.csv").find("posevote,all,pose,2,2,2.0,1.0,1.0,1.0,1.0,") !=
         std::string::npos);
   CHECK(read_text(folder / "out/uwa.svg").find("</svg>") != std::string::npos);
   CHECK(fs::exists(folder / "out/ransac/evaluation/evaluation.json"));

@@ -2,7 +2,11 @@
 #include "tools/experiment/experiment.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <fstream>
 #include <stdexcept>
+
+#include "graph/registry.hpp"
 
 namespace posevote {
 namespace {
@@ -10,24 +14,62 @@ namespace {
 const std::vector<Method> kMethods = {{"posevote", "recognize"},
                                       {"ransac", "ransac"},
                                       {"hough3d", "hough3d"},
-                                      {"geometric_consistency", "geometric_consistency"}};
+                                      {"geometric_consistency", "geometric_consistency"},
+                                      {"opencv_ppf", "opencv_ppf"}};
+
+std::vector<Method> methods_of_this_build() {
+  std::vector<Method> methods = kMethods;
+  if (!graph::find_node("opencv_ppf")) methods.pop_back();
+  return methods;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
+}
 
 }  // namespace
 
 std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
-  if (wanted.empty()) return kMethods;
+  const std::vector<Method> known = methods_of_this_build();
+  if (wanted.empty()) return known;
   std::vector<Method> methods;
   for (const std::string& name : wanted) {
-    const auto found = std::find_if(kMethods.begin(), kMethods.end(),
+    const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const Method& method) { return method.name == name; });
-    if (found == kMethods.end()) {
+    if (found == known.end()) {
       std::string text = "--methods " + name + ": no such method, expected one of";
-      for (const Method& method : kMethods) text.append(" ").append(method.name);
+      for (const Method& method : known) text.append(" ").append(method.name);
       throw std::invalid_argument(text);
     }
     methods.push_back(*found);
   }
   return methods;
+}
+
+std::string to_csv(const nlohmann::ordered_json& rows) {
+  std::string head, text;
+  for (const auto& row : rows) {
+    head.clear();
+    std::string line;
+    for (const auto& [key, value] : row.items()) {
+      head += (head.empty() ? "" : ",") + key;
+      line +=
+          (line.empty() ? "" : ",") + (value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    text += line + "\n";
+  }
+  return head + "\n" + text;
+}
+
+void write_report(const std::filesystem::path& base, const std::string& json,
+                  const std::string& csv, const std::string& svg) {
+  write_text(base.string() + ".json", json);
+  write_text(base.string() + ".csv", csv);
+  write_text(base.string() + ".svg", svg);
+  std::printf("wrote %s.{json,csv,svg}\n", base.c_str());
 }
 
 int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted) {

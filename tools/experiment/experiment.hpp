@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct Method {
 /// Ours first, then the rivals that this build has. Throws std::invalid_argument for a name in
 /// `wanted` that there is not.
 std::vector<Method> find_methods(const std::vector<std::string>& wanted);
+
+/// Rows of plain values, all with the same keys, as text for spreadsheets.
+std::string to_csv(const nlohmann::ordered_json& rows);
+/// Writes BASE.json, BASE.csv and BASE.svg and says so. Throws std::runtime_error for a full disk.
+void write_report(const std::filesystem::path& base, const std::string& json,
+                  const std::string& csv, const std::string& svg);
 
 int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted);
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "nodes/load/read_cloud.hpp"
@@ -188,22 +188,25 @@ void print_summary(const std::vector<Level>& levels, const std::vector<Method>& 
   }
 }
 
-void write_csv(const fs::path& file, const std::vector<Level>& levels,
-               const std::vector<Method>& methods) {
-  std::ofstream stream(file);
-  stream << "noise,inlier_rate,normal_deg,method,runs,right,mean_mm,worst_mm,mean_deg,worst_deg\n";
+nlohmann::ordered_json to_json(const std::vector<Level>& levels,
+                               const std::vector<Method>& methods) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const Level& level : levels)
     for (const Method& method : methods) {
       const std::vector<Errors>& errors = level.errors.at(method.name);
-      stream << level.noise << ',' << level.inlier_rate << ',' << level.normal_deg << ','
-             << method.name << ',' << errors.size() << ','
-             << std::count_if(errors.begin(), errors.end(),
-                              [](const Errors& error) { return error.right(); })
-             << ',' << mean_of(errors, &Errors::mm) << ',' << worst_of(errors, &Errors::mm) << ','
-             << mean_of(errors, &Errors::deg) << ',' << worst_of(errors, &Errors::deg) << '\n';
+      rows.push_back({{"noise", level.noise},
+                      {"inlier_rate", level.inlier_rate},
+                      {"normal_deg", level.normal_deg},
+                      {"method", method.name},
+                      {"runs", errors.size()},
+                      {"right", std::count_if(errors.begin(), errors.end(),
+                                              [](const Errors& error) { return error.right(); })},
+                      {"mean_mm", mean_of(errors, &Errors::mm)},
+                      {"worst_mm", worst_of(errors, &Errors::mm)},
+                      {"mean_deg", mean_of(errors, &Errors::deg)},
+                      {"worst_deg", worst_of(errors, &Errors::deg)}});
     }
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
+  return rows;
 }
 
 plot::Chart chart_over_noise(const std::string& title, const std::string& unit) {
@@ -215,8 +218,7 @@ plot::Chart chart_over_noise(const std::string& title, const std::string& unit) 
 }
 
 /// The three panels of the paper's figure 4.
-void write_charts(const fs::path& file, const std::vector<Level>& levels,
-                  const std::vector<Method>& methods) {
+std::string panels(const std::vector<Level>& levels, const std::vector<Method>& methods) {
   const auto chart = [&](const char* title, const char* unit, double Errors::*value) {
     plot::Chart panel = chart_over_noise(title, unit);
     for (const Method& method : methods) {
@@ -236,11 +238,8 @@ void write_charts(const fs::path& file, const std::vector<Level>& levels,
     rates.series[0].y.push_back(100 * level.inlier_rate);
     rates.series[1].y.push_back(level.normal_deg);
   }
-  std::ofstream stream(file);
-  stream << plot::to_svg({chart("translation error", "[mm]", &Errors::mm),
-                          chart("rotation error", "[deg]", &Errors::deg), rates});
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
+  return plot::to_svg({chart("translation error", "[mm]", &Errors::mm),
+                       chart("rotation error", "[deg]", &Errors::deg), rates});
 }
 
 }  // namespace
@@ -271,9 +270,8 @@ int sensitivity_experiment(const ExperimentCommand& command, const fs::path& out
   const std::vector<Level> table = group_by_level(copies, errors, quality);
   print_table(table, methods);
   print_summary(table, methods);
-  write_csv(out / "sensitivity.csv", table, methods);
-  write_charts(out / "sensitivity.svg", table, methods);
-  std::printf("wrote %s\n", (out / "sensitivity.{csv,svg}").c_str());
+  const nlohmann::ordered_json rows = to_json(table, methods);
+  write_report(out / "sensitivity", rows.dump(1) + "\n", to_csv(rows), panels(table, methods));
   return 0;
 }
 
