@@ -15,6 +15,7 @@ constexpr std::size_t kShortlist = 100;  // judged by kLook model points
 constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
 constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
 constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
+constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 
 using Candidates = std::vector<Candidate>;
@@ -29,7 +30,11 @@ class Search {
  public:
   Search(const Model& model, const Proposals& proposals, const InstanceParams& params,
          ScanState& scan)
-      : model_(model), proposals_(proposals), params_(params), scan_(scan) {}
+      : model_(model),
+        rim_(model.cloud, kRimReach * params.tolerance),
+        proposals_(proposals),
+        params_(params),
+        scan_(scan) {}
 
   Candidates run() {
     Candidates found;
@@ -134,8 +139,8 @@ class Search {
   }
 
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const {
-    return measure_fit(model_.cloud, scan_.surface, scan_.view, T_scene_model, params_.tolerance,
-                       samples);
+    return measure_fit(model_.cloud, rim_, scan_.surface, scan_.view, T_scene_model,
+                       params_.tolerance, samples);
   }
   Eigen::Vector3f center_of(const Candidate& candidate) const {
     return (candidate.T_scene_model * model_.center.cast<double>()).cast<float>();
@@ -147,6 +152,7 @@ class Search {
   }
 
   const Model& model_;
+  ModelRim rim_;
   const Proposals& proposals_;
   const InstanceParams& params_;
   ScanState& scan_;

@@ -9,13 +9,15 @@
 //   unseen        nothing was measured in that direction
 //   hidden        a measured surface stands before the point: says nothing
 //
-// One nearest-neighbour search a point.
+// And where the model's surface ends beside a supported point, the scan's may end, too, or go on
+// (overhang). One nearest-neighbour search a point, and one for each end.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cstddef>
 
 #include "nodes/data/cloud.hpp"
+#include "nodes/segment/model_rim.hpp"
 #include "nodes/segment/range_view.hpp"
 #include "nodes/segment/scan_surface.hpp"
 
@@ -24,15 +26,18 @@ namespace posevote {
 struct Fit {
   std::size_t facing = 0;  ///< all of the below
   std::size_t supported = 0, contradicted = 0, mismatched = 0, unseen = 0, hidden = 0;
+  std::size_t ends = 0;        ///< places beside the supported where the model's surface ends
+  std::size_t overhang = 0;    ///< of those, where the scan's surface goes on
   double inlier_fraction = 0;  ///< supported / facing
   double rmse = 0;             ///< point to plane, over the supported [m]
   double relief = 0;           ///< of the supported: 0 if all normals are parallel, 2/3 at most
 };
 
 /// `tolerance`: of support; a surface is clearly behind or before at twice that [m]. `samples`:
-/// about as many points of the model are judged, evenly strewn; 0 judges all.
-Fit measure_fit(const Cloud& model, const ScanSurface& scan, const RangeView& view,
-                const Eigen::Isometry3d& T_scene_model, float tolerance, Eigen::Index samples = 0);
+/// about as many points of the model are judged, evenly strewn; 0 judges all. `rim` is the model's.
+Fit measure_fit(const Cloud& model, const ModelRim& rim, const ScanSurface& scan,
+                const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
+                Eigen::Index samples = 0);
 
 /// The detection's score in [0, 1]: how much of what should be visible is there, times how much
 /// there is to go by; the .cpp gives the reasons.

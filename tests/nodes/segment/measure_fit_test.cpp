@@ -11,11 +11,12 @@ using namespace posevote::test;
 namespace {
 
 constexpr float kTolerance = 2 * kResolution;
+constexpr float kReach = 2.5F * kTolerance;
 
 Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_scene_model) {
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
-  return measure_fit(model, surface, view, T_scene_model, kTolerance);
+  return measure_fit(model, ModelRim(model, kReach), surface, view, T_scene_model, kTolerance);
 }
 
 const Placed kBody{1, pose(0, 0.02, 0.8, 0.7)};
@@ -80,12 +81,55 @@ TEST_CASE("a flat patch is weak evidence, however well it fits", "[segment]") {
   CHECK(fit_score(fit) < 0.05);
 }
 
+TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "[segment]") {
+  const float half = 0.1F;
+  const Cloud plate = test::detail::wall(0, half);
+  const ModelRim rim(plate, kReach);
+  for (Eigen::Index i = 0; i < plate.points.rows(); ++i) {
+    const float inside = half - plate.points.row(i).head<2>().cwiseAbs().maxCoeff();
+    int ends = 0;
+    rim.for_each_end(i, [&](const Eigen::Vector3f& place) {
+      ++ends;
+      CHECK((place - Eigen::Vector3f(plate.points.row(i))).norm() == Approx(kReach).epsilon(1e-4));
+      CHECK(place.head<2>().cwiseAbs().maxCoeff() > half);
+    });
+    if (inside > kReach) CHECK(ends == 0);
+    if (inside < 0.1F * kReach) CHECK(ends >= 2);
+  }
+  const Cloud body = bumpy_model(1)->cloud;
+  const ModelRim closed(body, kReach);
+  int ends = 0;
+  for (Eigen::Index i = 0; i < body.points.rows(); ++i)
+    closed.for_each_end(i, [&](const Eigen::Vector3f&) { ++ends; });
+  CHECK(ends < ModelRim::kDirections * body.points.rows() / 50);
+}
+
+TEST_CASE("a flat side is evidence where its outline is the scan's", "[segment]") {
+  const Cloud side = test::detail::wall(1.0F, 0.05F);
+  Cloud scan = side;
+  test::detail::append(scan, test::detail::wall(1.3F, 0.3F), Eigen::Isometry3d::Identity());
+  const Fit fit = fit_of(side, scan, Eigen::Isometry3d::Identity());
+  CHECK(fit.relief < 1e-6);
+  CHECK(fit.ends > 100);
+  CHECK(fit.overhang == 0);
+  const double score = fit_score(fit);
+  CHECK(score > 0.8);
+  // A narrower side fits inside of it as well, but the scan goes on on both sides.
+  Cloud narrow = side;
+  narrow.points.col(0) *= 0.6F;
+  const Fit inside = fit_of(narrow, scan, Eigen::Isometry3d::Identity());
+  CHECK(inside.inlier_fraction == 1);
+  CHECK(10 * inside.overhang > 3 * inside.ends);
+  CHECK(fit_score(inside) < 0.7 * score);
+}
+
 TEST_CASE("a sample of the model gives nearly the same fit", "[segment]") {
   const Cloud scan = scan_of({kBody}), model = bumpy_model(1)->cloud;
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
-  const Fit all = measure_fit(model, surface, view, kBody.T_scene_model, kTolerance);
-  const Fit some = measure_fit(model, surface, view, kBody.T_scene_model, kTolerance, 800);
+  const ModelRim rim(model, kReach);
+  const Fit all = measure_fit(model, rim, surface, view, kBody.T_scene_model, kTolerance);
+  const Fit some = measure_fit(model, rim, surface, view, kBody.T_scene_model, kTolerance, 800);
   CHECK(some.facing < all.facing / 4);
   CHECK(fit_score(some) == Approx(fit_score(all)).margin(0.05));
 }
