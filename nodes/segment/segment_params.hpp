@@ -13,7 +13,7 @@ constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_d
 struct SegmentParams {
   int max_instances = 1;
   int candidates = 1000;
-  double nms = 0.2;
+  double nms = 0.1;
   double min_density = 3;
   double min_score = 0.2;
   bool refine = true;

@@ -28,10 +28,10 @@ TEST_CASE("experiment sensitivity --quick: right under noise, and resumes", "[ex
 
 TEST_CASE("experiment uwa: methods side by side on a set with true poses", "[experiment]") {
   const TemporaryFolder folder;
-  const std::string spec =
-      folder.write("spec.yaml",
-                   "models: [{shape: kettle, size: 0.2}]\n"
-                   "scenes: [{count: 2, ground: unseen, sensor: rgbd, objects: [1], clutter: 1}]\n");
+  const std::string spec = folder.write(
+      "spec.yaml",
+      "models: [{shape: kettle, size: 0.2}]\n"
+      "scenes: [{count: 2, ground: unseen, sensor: rgbd, objects: [1], clutter: 1}]\n");
   REQUIRE(run_posevote(folder, "simulate " + spec + " --out " + (folder / "d").string()).status ==
           0);
   const CommandResult result =
@@ -45,6 +45,29 @@ TEST_CASE("experiment uwa: methods side by side on a set with true poses", "[exp
         std::string::npos);
   CHECK(read_text(folder / "out/uwa.svg").find("</svg>") != std::string::npos);
   CHECK(fs::exists(folder / "out/ransac/evaluation/evaluation.json"));
+}
+
+TEST_CASE("experiment --quick makes a small replica of each set and recognises in it",
+          "[experiment]") {
+  struct Expected {
+    std::string name;
+    double least_recall;  ///< far below what is measured: four to six images say little
+  };
+  for (const Expected& expected :
+       {Expected{"uwa", 0.8}, {"queens", 0.8}, {"icbin", 0.5}, {"icmi", 0.5}}) {
+    const TemporaryFolder folder;
+    const CommandResult result =
+        run_posevote(folder, "experiment " + expected.name + " --quick --methods posevote --out " +
+                                 (folder / "out").string());
+    INFO(result.output);
+    REQUIRE(result.status == 0);
+    CHECK(result.output.find("A replica") != std::string::npos);
+    const nlohmann::json report = read_json(folder / "out" / (expected.name + ".json"));
+    CHECK(report["rows"][0]["object"] == "all");
+    CHECK(report["rows"][0]["recall"].get<double>() >= expected.least_recall);
+    CHECK(report["rows"].size() > 2);
+    CHECK(read_text(folder / "out" / (expected.name + ".svg")).find("</svg>") != std::string::npos);
+  }
 }
 
 TEST_CASE("experiment refuses what it cannot do", "[experiment]") {
