@@ -163,6 +163,10 @@ void add_experiment(CLI::App& app, ExperimentCommand& experiment) {
       ->type_name("DIR");
   command->add_option("--methods", experiment.methods, "Only these, e.g. posevote ransac")
       ->type_name("NAME");
+  command
+      ->add_option("--every", experiment.every, "Take one image of so many; of sets of images only")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000));
   command->add_flag("--quick", experiment.quick, "A small part of it, to see that it works");
 }
 

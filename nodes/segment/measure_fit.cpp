@@ -113,10 +113,11 @@ Fit measure_fit(const Cloud& model, const ModelRim& rim, const ScanSurface& scan
 //
 // Agreement alone would let a body sunk into a table score high: its cap is supported, the rest is
 // hidden. Evidence is therefore what the support could only show by fitting: the supported share of
-// what faces the sensor, times what there is to go by: the relief of the scan there, and how much of
-// the model's outline is met by the scan's (all that shows the pose of a flat side). Measured on
+// what faces the sensor, times what there is to go by: the relief of the scan there, and how much
+// of the model's outline is met by the scan's (all that shows the pose of a flat side). Measured on
 // bin-picking scans, false poses on flat ground reach inliers 0.16 x relief 0.015, true poses
-// 0.35..0.7 x 0.3..0.5; on a laser scan 0.4..0.75 x 0.3..0.5 where false ones stay below 0.15 x 0.3.
+// 0.35..0.7 x 0.3..0.5; on a laser scan 0.4..0.75 x 0.3..0.5 where false ones stay below 0.15 x
+// 0.3.
 //
 // Continuity is the share of the outline beyond which the scan does not go on. All factors are
 // ratios, so that the score does not depend on the object's size or the sampling.

@@ -16,6 +16,7 @@ struct ExperimentCommand {
   std::string dataset;               ///< the real set; empty: a replica is made
   std::string out;                   ///< empty: out/NAME
   std::vector<std::string> methods;  ///< empty: all
+  std::size_t every = 0;             ///< one image of so many; 0: all, or what `quick` says
   bool quick = false;
 };
 

@@ -58,14 +58,22 @@ struct Row {
   double seconds = 0;  ///< mean per image: all stages but loading
 };
 
-/// The data set to use; the replica is made where it is not there yet.
+/// One image of how many is taken.
+std::size_t step_of(const ExperimentCommand& command) {
+  if (command.every > 0) return command.every;
+  return command.quick ? find_protocol(command.name).quick_step : 1;
+}
+
+/// The data set to use; the replica is made where it is not there yet, without images that nobody
+/// will look at.
 fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
   if (!command.dataset.empty()) return command.dataset;
-  fs::path dataset = out / "replica";
+  const std::size_t step = step_of(command);
+  fs::path dataset = out / (step == 1 ? "replica" : "replica_every_" + std::to_string(step));
   if (fs::exists(dataset)) return dataset;
   const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + command.name + "_scenes.yaml";
   spdlog::info("no --dataset: making the replica");
-  simulate(spec, dataset, command.quick ? find_protocol(command.name).quick_step : 1);
+  simulate(spec, dataset, step);
   return dataset;
 }
 
@@ -238,18 +246,19 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
   fs::create_directories(out);
   const fs::path dataset = find_dataset(command, out);
   const std::string split = "test";
-  const bool replica = command.dataset.empty();  // a quick one is small as it is
-  const std::string shard =
-      command.quick && !replica ? "1/" + std::to_string(protocol.quick_step) : "";
+  const bool replica = command.dataset.empty();
+  const std::string shard = replica ? "" : "1/" + std::to_string(step_of(command));
   GroundTruth truth = read_ground_truth(dataset, split);
   keep_shard(dataset, split, shard, truth);
 
+  int worst = 0;
   std::vector<Row> rows;
   for (const Method& method : methods) {
     std::printf("%s\n", method.name.c_str());
     std::fflush(stdout);
     const int status = run_command(make_run(command, method, dataset, out, shard), interrupted);
-    if (status != 0) return status;
+    if (status > 1) return status;
+    worst = std::max(worst, status);  // scans that failed count as not found
     EvaluateOptions options;
     options.rules = protocol.rule;
     options.results = (out / method.name / "results.csv").string();
@@ -266,7 +275,7 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
   const nlohmann::ordered_json table{{"dataset", source}, {"rows", to_json(rows)}};
   write_report(out / command.name, table.dump(1) + "\n", to_csv(table["rows"]),
                plot::to_svg({precision_recall(rows), recall_over_visibility(rows)}));
-  return 0;
+  return worst;
 }
 
 }  // namespace posevote
