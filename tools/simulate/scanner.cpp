@@ -45,7 +45,6 @@ void grow(PixelBox& box, int x, int y) {
 /// A scene as the sensor sees it.
 struct Shot {
   const Sensor& sensor;
-  const RayCaster& caster;
   TrueDepth truth;
   std::vector<int> owner;  ///< index of the body that each pixel shows
 };
@@ -53,7 +52,6 @@ struct Shot {
 Shot shoot(const RayCaster& caster, const Sensor& sensor) {
   const std::size_t pixels = sensor.width * sensor.height;
   Shot shot{sensor,
-            caster,
             {std::vector<double>(pixels), std::vector<double>(pixels)},
             std::vector<int>(pixels, kNothing)};
   graph::parallel_for(sensor.height, 4, [&](std::size_t v) {
@@ -91,21 +89,23 @@ BodyView pixels_of(const Body& body, int index, const Eigen::Isometry3d& T_senso
 }
 
 /// Whether the sensor sees a point of a body: its ray meets the body first, and there.
-bool is_seen(const Eigen::Vector3d& point, std::size_t body, const Shot& shot) {
+bool is_seen(const Eigen::Vector3d& point, std::size_t body, const Sensor& sensor,
+             const RayCaster& caster) {
   constexpr double kSame = 0.0002;  // [m]
   if (point.z() < 1e-3) return false;
-  const Camera& camera = shot.sensor.camera;
+  const Camera& camera = sensor.camera;
   const double u = camera.fx * point.x() / point.z() + camera.cx;
   const double v = camera.fy * point.y() / point.z() + camera.cy;
-  if (u < -0.5 || u > static_cast<double>(shot.sensor.width) - 0.5 || v < -0.5 ||
-      v > static_cast<double>(shot.sensor.height) - 0.5)
+  if (u < -0.5 || u > static_cast<double>(sensor.width) - 0.5 || v < -0.5 ||
+      v > static_cast<double>(sensor.height) - 0.5)
     return false;
-  const auto hit = shot.caster.first_hit(point / point.z());
+  const auto hit = caster.first_hit(point / point.z());
   return hit && hit->body == body && std::abs(hit->distance - point.z()) < kSame;
 }
 
-double seen_surface(const Body& body, std::size_t index, const Shot& shot) {
-  const std::vector<Eigen::Vector3f>& vertices = shot.caster.vertices(index);
+double seen_surface(const Body& body, std::size_t index, const Sensor& sensor,
+                    const RayCaster& caster) {
+  const std::vector<Eigen::Vector3f>& vertices = caster.vertices(index);
   double all = 0, seen = 0;
   for (Eigen::Index face = 0; face < body.mesh->faces.rows(); ++face) {
     Eigen::Matrix3d corners;
@@ -113,12 +113,22 @@ double seen_surface(const Body& body, std::size_t index, const Shot& shot) {
     const double area =
         (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
     all += area;
-    if (is_seen(corners.rowwise().mean(), index, shot)) seen += area;
+    if (is_seen(corners.rowwise().mean(), index, sensor, caster)) seen += area;
   }
   return all > 0 ? seen / all : 0;
 }
 
 }  // namespace
+
+std::vector<double> seen_surfaces(const std::vector<Body>& bodies, const Sensor& sensor,
+                                  const Eigen::Isometry3d& T_world_sensor) {
+  const RayCaster caster(bodies, T_world_sensor.inverse());
+  std::vector<double> seen(bodies.size(), 0);
+  graph::parallel_for(bodies.size(), 1, [&](std::size_t i) {
+    if (bodies[i].obj_id != 0) seen[i] = seen_surface(bodies[i], i, sensor, caster);
+  });
+  return seen;
+}
 
 Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
           const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed) {
@@ -128,7 +138,7 @@ Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
   Scan made{take_image(shot.truth, sensor, seed), std::vector<BodyView>(bodies.size())};
   graph::parallel_for(bodies.size(), 1, [&](std::size_t i) {
     made.views[i] = pixels_of(bodies[i], static_cast<int>(i), T_sensor_world, shot, made.depth);
-    made.views[i].surface = seen_surface(bodies[i], i, shot);
+    made.views[i].surface = seen_surface(bodies[i], i, sensor, caster);
   });
   return made;
 }

@@ -30,6 +30,10 @@ struct Scan {
   std::vector<BodyView> views;  ///< one a body
 };
 
+/// BodyView::surface of each object alone, in a fraction of a scan's time; 0 for other bodies.
+std::vector<double> seen_surfaces(const std::vector<Body>& bodies, const Sensor& sensor,
+                                  const Eigen::Isometry3d& T_world_sensor);
+
 /// Scans the bodies. The same arguments give the same bits at any number of threads.
 Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
           const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed);

@@ -90,25 +90,38 @@ struct Image {
 
 /// Whether as much is seen of each object as the scene asks for.
 bool fits(const Image& image, const SceneSpec& scene) {
-  for (std::size_t i = 0; i < image.bodies.size(); ++i)
-    if (const double seen = image.scan.views[i].surface;
-        image.bodies[i].obj_id != 0 && (seen < scene.least_surface || seen > scene.most_surface))
+  const std::vector<double> seen = seen_surfaces(image.bodies, image.sensor, image.T_world_sensor);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (image.bodies[i].obj_id != 0 &&
+        (seen[i] < scene.least_surface || seen[i] > scene.most_surface))
       return false;
   return true;
 }
 
-Image make_image(const Studio& studio, std::size_t index) {
+/// Walks around what has settled, which costs less than letting it settle anew.
+bool find_view(const SceneSpec& scene, Image& image) {
+  constexpr int kViews = 12;
   constexpr double kDegree = std::numbers::pi / 180;
+  for (int i = 0; i < kViews; ++i) {
+    const double azimuth = scene.azimuth + 360.0 * i / kViews;
+    image.T_world_sensor = look_at({0, 0, kTargetHeight}, scene.distance, scene.elevation * kDegree,
+                                   azimuth * kDegree);
+    if (fits(image, scene)) return true;
+  }
+  return false;
+}
+
+Image make_image(const Studio& studio, std::size_t index) {
   const SceneSpec& scene = studio.spec.scenes[index];
   Image image;
   image.sensor = find_sensor(scene.sensor);
-  image.T_world_sensor = look_at({0, 0, kTargetHeight}, scene.distance, scene.elevation * kDegree,
-                                 scene.azimuth * kDegree);
   Random random(static_cast<std::uint64_t>(studio.spec.seed), index);
   for (int i = 0; i < kArrangements; ++i) {
     image.bodies = arrange(scene, studio, random);
-    image.scan = scan(image.bodies, image.sensor, image.T_world_sensor, random.next());
-    if (fits(image, scene)) return image;
+    const std::uint64_t noise = random.next();
+    if (!find_view(scene, image)) continue;
+    image.scan = scan(image.bodies, image.sensor, image.T_world_sensor, noise);
+    return image;
   }
   throw std::runtime_error("image " + std::to_string(index) + ": in " +
                            std::to_string(kArrangements) +
