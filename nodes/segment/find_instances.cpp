@@ -2,6 +2,7 @@
 #include "nodes/segment/find_instances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "graph/parallel.hpp"
@@ -18,11 +19,16 @@ constexpr Eigen::Index kLook = 1000;     // model points that judge an improved 
 constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 
+// A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
+// votes and fit are evidence of their own, but true instances differ much in how much of them is
+// seen.
+constexpr double kTrustInSupport = 0.1;
+
 using Candidates = std::vector<Candidate>;
 
-void sort_by_score(Candidates::iterator begin, Candidates::iterator end) {
+void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
   std::stable_sort(begin, end,
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
 }
 
 /// One object in one scan, and what of it was found.
@@ -60,13 +66,19 @@ class Search {
  private:
   /// The short list of what is proposed, the best first.
   void fill_pool() {
-    for (const PoseMode& mode : proposals_.propose(scan_, taken_)) pool_.emplace_back().mode = mode;
+    most_support_ = 1e-9;
+    for (const PoseMode& mode : proposals_.propose(scan_, taken_)) {
+      pool_.emplace_back().mode = mode;
+      most_support_ = std::max(most_support_, mode.support);
+    }
     if (pool_.size() > kShortlist) {
       judge(0, pool_.size(), kGlance);
       pool_.resize(kShortlist);
     }
     graph::parallel_for(pool_.size(), 1, [this](std::size_t i) {
+      const double support = pool_[i].mode.support;
       pool_[i].mode = proposals_.improve(pool_[i].mode);
+      pool_[i].mode.support = support;
     });
     judge(0, pool_.size(), kLook);
     judged_ = true;
@@ -78,9 +90,9 @@ class Search {
       Candidate& candidate = pool_[begin + i];
       candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
       candidate.fit = measure(candidate.T_scene_model, samples);
-      candidate.score = fit_score(candidate.fit);
+      set_score(candidate);
     });
-    sort_by_score(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(end));
+    sort_by_rank(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(end));
   }
 
   /// Brings the finalists to the front. Scores of before the last find are taken as upper bounds,
@@ -91,7 +103,7 @@ class Search {
       const std::size_t end = std::min(done + kBatch, pool_.size());
       judge(done, end, kLook);
       done = end;
-      if (done < pool_.size() && pool_[kFinalists - 1].score >= pool_[done].score) break;
+      if (done < pool_.size() && pool_[kFinalists - 1].rank >= pool_[done].rank) break;
     }
     std::erase_if(pool_, [](const Candidate& candidate) { return candidate.score == 0; });
     judged_ = true;
@@ -105,7 +117,7 @@ class Search {
       const std::size_t count = std::min(kFinalists, pool_.size());
       Candidates finalists(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
       graph::parallel_for(count, 1, [&](std::size_t i) { refine(finalists[i]); });
-      sort_by_score(finalists.begin(), finalists.end());
+      sort_by_rank(finalists.begin(), finalists.end());
       for (const Candidate& candidate : finalists)
         if (is_clear(center_of(candidate))) return candidate;
       pool_.erase(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
@@ -127,7 +139,13 @@ class Search {
         candidate.fit = refined;
       }
     }
+    set_score(candidate);
+  }
+
+  void set_score(Candidate& candidate) const {
     candidate.score = fit_score(candidate.fit);
+    candidate.rank =
+        candidate.score * std::pow(candidate.mode.support / most_support_, kTrustInSupport);
   }
 
   void take(const Candidate& found) {
@@ -156,8 +174,9 @@ class Search {
   const Proposals& proposals_;
   const InstanceParams& params_;
   ScanState& scan_;
-  Candidates pool_;      ///< the best first, as far as they were judged
-  bool judged_ = false;  ///< whether the first of the pool were judged since the last find
+  Candidates pool_;          ///< the best first, as far as they were judged
+  double most_support_ = 1;  ///< in the pool as it was filled
+  bool judged_ = false;      ///< whether the first of the pool were judged since the last find
   std::vector<Eigen::Vector3f> taken_;  ///< centres of what was found
 };
 

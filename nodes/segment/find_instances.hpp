@@ -40,6 +40,7 @@ struct Candidate {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
   double score = 0;
+  double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
 };
 
 /// The instances in the order in which they were found; of equally good poses the one that was

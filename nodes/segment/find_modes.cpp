@@ -27,7 +27,7 @@ Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
 
 PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote) {
   return {vote_center(votes, vote),
-          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote])};
+          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote]), 0};
 }
 
 std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,

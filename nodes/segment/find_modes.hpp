@@ -22,6 +22,7 @@ Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote);
 struct PoseMode {
   Eigen::Vector3f center = Eigen::Vector3f::Zero();  ///< where the model's centre lands [m]
   Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();
+  double support = 0;  ///< what speaks for it before anything is judged: density, or a rival's own
 };
 
 /// The pose of one vote.

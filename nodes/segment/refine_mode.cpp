@@ -37,7 +37,7 @@ PoseMode weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& ne
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(moment);
   const Eigen::Vector4f mean = solver.eigenvectors().col(3).cast<float>();
-  return {(center / sum).cast<float>(), Eigen::Quaternionf(mean).normalized()};
+  return {(center / sum).cast<float>(), Eigen::Quaternionf(mean).normalized(), 0};
 }
 
 bool stands_still(const PoseMode& before, const PoseMode& after, const Bandwidth& bandwidth) {

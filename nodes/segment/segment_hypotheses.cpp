@@ -17,7 +17,7 @@ namespace {
 
 PoseMode mode_of(const Hypothesis& hypothesis, const Model& model) {
   return {(hypothesis.T_scene_model * model.center.cast<double>()).cast<float>(),
-          Eigen::Quaternionf(hypothesis.T_scene_model.linear().cast<float>())};
+          Eigen::Quaternionf(hypothesis.T_scene_model.linear().cast<float>()), hypothesis.support};
 }
 
 double support_of(const Hypotheses& object) {

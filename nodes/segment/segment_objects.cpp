@@ -52,8 +52,10 @@ void segment_object(LiveVotes object, ScanState& scan, const SegmentParams& para
                               remove_explained(object, now.feature_explained);
                               std::vector<PoseMode> modes;
                               for (const std::uint32_t vote :
-                                   best_votes(*object.votes, object.density, params.min_density))
+                                   best_votes(*object.votes, object.density, params.min_density)) {
                                 modes.push_back(vote_pose(*object.votes, vote));
+                                modes.back().support = object.density[vote];
+                              }
                               return separate_modes(modes, taken, how.nms_radius,
                                                     static_cast<std::size_t>(params.candidates));
                             },

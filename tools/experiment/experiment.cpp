@@ -33,7 +33,7 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 }  // namespace
 
 std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
-  const std::vector<Method> known = methods_of_this_build();
+  std::vector<Method> known = methods_of_this_build();
   if (wanted.empty()) return known;
   std::vector<Method> methods;
   for (const std::string& name : wanted) {

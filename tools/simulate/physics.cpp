@@ -16,7 +16,7 @@ namespace {
 constexpr double kUnits = 10;                         // a metre
 constexpr double kMargin = 0.0005, kGap = 0.01;       // [m]
 constexpr double kStep = 1.0 / 250;                   // [s]
-constexpr double kFall = 0.4, kLongest = 3;           // [s]
+constexpr int kFall = 100, kLongest = 750;            // [steps]
 constexpr double kStill = 0.01, kStillTurning = 0.1;  // [m/s], [rad/s]
 constexpr int kPieces = 6;                            // along the longest side
 
@@ -63,6 +63,7 @@ std::vector<std::set<std::uint32_t>> cut_up(const Cloud& mesh) {
     for (int k = 0; k < 3; ++k) pieces[key].insert(mesh.faces(face, k));
   }
   std::vector<std::set<std::uint32_t>> list;
+  list.reserve(pieces.size());
   for (auto& [key, corners] : pieces) list.push_back(std::move(corners));
   return list;
 }
@@ -72,9 +73,9 @@ std::vector<std::set<std::uint32_t>> cut_up(const Cloud& mesh) {
 std::set<std::uint32_t> extremes(const Cloud& mesh, const std::set<std::uint32_t>& corners) {
   std::set<std::uint32_t> found;
   for (int i = 0; i < 27; ++i) {
-    const Eigen::Vector3f direction(static_cast<float>(i % 3 - 1),
-                                    static_cast<float>(i / 3 % 3 - 1),
-                                    static_cast<float>(i / 9 - 1));
+    const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+    const Eigen::Vector3f direction(static_cast<float>(x), static_cast<float>(y),
+                                    static_cast<float>(z));
     if (direction.isZero()) continue;
     found.insert(
         *std::max_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -218,12 +219,12 @@ void settle(std::vector<Body>& bodies, double radius, bool walls, Random& random
     const double height = top + solid.reach() + kGap;
     solid.place(place_over(radius, walls, solid.reach(), height, random), random.rotation());
     world.add(solid);
-    for (double t = 0; t < kFall; t += kStep) world.step();
+    for (int i = 0; i < kFall; ++i) world.step();
   }
   const auto is_still = [](const auto& solid) { return solid->is_still(); };
-  for (double t = 0; t < kLongest; t += kStep) {
+  for (int i = 0; i < kLongest; ++i) {
     world.step();
-    if (t > kFall && std::all_of(solids.begin(), solids.end(), is_still)) break;
+    if (i > kFall && std::all_of(solids.begin(), solids.end(), is_still)) break;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].T_world_body = solids[i]->pose();
 }

@@ -60,8 +60,8 @@ void punch_holes(DepthImage& image, int holes, Random random) {
     const double x = random.uniform(0, width), y = random.uniform(0, height);
     const double radius = random.uniform(kLeast, kMost);
     for (std::size_t pixel = 0; pixel < image.values.size(); ++pixel) {
-      const double dx = static_cast<double>(pixel % image.width) - x;
-      const double dy = static_cast<double>(pixel / image.width) - y;
+      const std::size_t u = pixel % image.width, v = pixel / image.width;
+      const double dx = static_cast<double>(u) - x, dy = static_cast<double>(v) - y;
       if (dx * dx + dy * dy < radius * radius) image.values[pixel] = 0;
     }
   }
