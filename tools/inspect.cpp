@@ -2,7 +2,6 @@
 // Commands that look and do not run: check, nodes, graph, docs.
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "graph/registry.hpp"
 #include "tools/commands.hpp"
 #include "tools/configuration.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
@@ -111,10 +111,7 @@ std::string node_reference() {
 }
 
 int docs_command(const std::string& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << node_reference();
-  stream.close();
-  if (!stream) throw std::invalid_argument(file + ": cannot be written");
+  write_text(file, node_reference());
   std::cout << "wrote " << file << "\n";
   return 0;
 }

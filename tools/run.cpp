@@ -16,6 +16,7 @@
 #include "tools/commands.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
@@ -70,9 +71,7 @@ void write_effective(const fs::path& out, const std::string& text, bool resume) 
     return;
   }
   fs::create_directories(out);
-  std::ofstream stream(file, std::ios::binary);
-  stream << text << std::flush;
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  write_text(file, text);
 }
 
 std::string nodes_json(const std::vector<graph::NodeTimes>& times) {

@@ -29,11 +29,7 @@ Hypotheses geometric_consistency(const Correspondences& matches, const FeatureSe
   grouping.setGCThreshold(params.least);
   grouping.setInputCloud(pairs.model);
   grouping.setSceneCloud(pairs.scene);
-  grouping.setModelSceneCorrespondences(pairs.pairs);
-  PclPoses poses;
-  std::vector<pcl::Correspondences> groups;
-  grouping.recognize(poses, groups);
-  return make_hypotheses(matches, poses, groups);
+  return group(grouping, pairs, matches);
 }
 
 const auto registered =

@@ -90,11 +90,7 @@ Hypotheses hough3d(const Correspondences& all, const FeatureSet& scene, const Cl
   grouping.setInputRf(choose(model_frames, matches.model_feature));
   grouping.setSceneCloud(pairs.scene);
   grouping.setSceneRf(choose(scene_frames, matches.scene_feature));
-  grouping.setModelSceneCorrespondences(pairs.pairs);
-  PclPoses poses;
-  std::vector<pcl::Correspondences> groups;
-  grouping.recognize(poses, groups);
-  return make_hypotheses(all, poses, groups);
+  return group(grouping, pairs, matches);
 }
 
 const auto registered =

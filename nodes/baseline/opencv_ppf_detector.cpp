@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <mutex>
-#include <numbers>
 #include <opencv2/surface_matching/ppf_helpers.hpp>
 #include <opencv2/surface_matching/ppf_match_3d.hpp>
 #include <optional>
@@ -108,8 +107,7 @@ std::vector<Hypothesis> PpfDetector::match(const Cloud& scene, const PpfMatching
   for (const ppf::Pose3DPtr& pose : poses)
     if (const auto T_scene_model = rigid(*pose); T_scene_model && pose->numVotes > 0)
       found.push_back({*T_scene_model, static_cast<double>(pose->numVotes)});
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.support > b.support; });
+  sort_by_support(found);
   return found;
 }
 

@@ -6,8 +6,6 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <algorithm>
-
 namespace posevote {
 
 namespace {
@@ -42,8 +40,7 @@ Hypotheses make_hypotheses(const Correspondences& matches, const PclPoses& poses
     if (!T_scene_model.matrix().allFinite() || !R.isUnitary(1e-3) || R.determinant() < 0) continue;
     found.items.push_back({T_scene_model, static_cast<double>(groups[i].size())});
   }
-  std::stable_sort(found.items.begin(), found.items.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.support > b.support; });
+  sort_by_support(found.items);
   return found;
 }
 

@@ -32,4 +32,14 @@ using PclPoses = std::vector<Eigen::Matrix4f, Eigen::aligned_allocator<Eigen::Ma
 Hypotheses make_hypotheses(const Correspondences& matches, const PclPoses& poses,
                            const std::vector<pcl::Correspondences>& groups);
 
+/// What a grouping of PCL's, whose clouds are set, makes of the pairs.
+template <class Grouping>
+Hypotheses group(Grouping& grouping, const PclPairs& pairs, const Correspondences& matches) {
+  grouping.setModelSceneCorrespondences(pairs.pairs);
+  PclPoses poses;
+  std::vector<pcl::Correspondences> groups;
+  grouping.recognize(poses, groups);
+  return make_hypotheses(matches, poses, groups);
+}
+
 }  // namespace posevote

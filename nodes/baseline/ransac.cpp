@@ -107,8 +107,7 @@ Hypotheses ransac(const Correspondences& matches, const FeatureSet& scene, const
     tried[i] = {pose, count_inliers(pairs, pose, distance)};
   });
   std::erase_if(tried, [](const Hypothesis& one) { return one.support < 2 * kSample; });
-  std::stable_sort(tried.begin(), tried.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.support > b.support; });
+  sort_by_support(tried);
   tried.resize(std::min(tried.size(), static_cast<std::size_t>(params.most)));
   found.items = std::move(tried);
   return found;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -20,5 +21,11 @@ struct Hypotheses {
   std::shared_ptr<const Model> model;
   std::vector<Hypothesis> items;
 };
+
+/// Equals stay in their order.
+inline void sort_by_support(std::vector<Hypothesis>& items) {
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.support > b.support; });
+}
 
 }  // namespace posevote

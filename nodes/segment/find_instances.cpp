@@ -76,9 +76,7 @@ class Search {
       pool_.resize(kShortlist);
     }
     graph::parallel_for(pool_.size(), 1, [this](std::size_t i) {
-      const double support = pool_[i].mode.support;
       pool_[i].mode = proposals_.improve(pool_[i].mode);
-      pool_[i].mode.support = support;
     });
     judge(0, pool_.size(), kLook);
     judged_ = true;

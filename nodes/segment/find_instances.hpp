@@ -30,7 +30,7 @@ struct Proposals {
   std::function<std::vector<PoseMode>(const ScanState& scan,
                                       const std::vector<Eigen::Vector3f>& taken)>
       propose;
-  /// Makes a proposal on the short list better, before ICP.
+  /// Makes the pose of a proposal on the short list better, before ICP; its support stays.
   std::function<PoseMode(const PoseMode& mode)> improve;
 };
 

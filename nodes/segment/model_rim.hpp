@@ -27,7 +27,6 @@ class ModelRim {
     for (int k = 0; k < kDirections && ends != 0; ++k)
       if ((ends >> k & 1U) != 0) visit(ahead(i, k));
   }
-  float reach() const { return reach_; }
 
  private:
   Eigen::Vector3f ahead(Eigen::Index i, int direction) const;

@@ -15,8 +15,8 @@
 
 namespace posevote {
 
-/// The pose shifted to a place where it is the mean of its neighbourhood. Only votes with alive[v]
-/// count.
+/// The pose shifted to a place where it is the mean of its neighbourhood; the support stays. Only
+/// votes with alive[v] count.
 PoseMode refine_mode(const VoteSet& votes, const VoteDensity& density,
                      const std::vector<char>& alive, const PoseMode& start);
 

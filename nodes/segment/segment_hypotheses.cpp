@@ -24,17 +24,15 @@ double support_of(const Hypotheses& object) {
   return object.items.empty() ? 0 : object.items.front().support;
 }
 
-/// Support of the hypothesis that a mode came from, and the best one elsewhere.
-void report_support(const Hypotheses& object, const PoseMode& mode, Detection& detection) {
+/// The best support of a hypothesis elsewhere.
+double runner_up_support(const Hypotheses& object, const PoseMode& mode) {
   const Model& model = *object.model;
+  double best = 0;
   for (const Hypothesis& hypothesis : object.items) {
-    const PoseMode other = mode_of(hypothesis, model);
-    const float distance = (other.center - mode.center).norm();
-    if (distance == 0 && other.rotation.coeffs() == mode.rotation.coeffs())
-      detection.density = std::max(detection.density, hypothesis.support);
-    if (distance > kRunnerUpRadius * model.diagonal)
-      detection.runner_up_density = std::max(detection.runner_up_density, hypothesis.support);
+    const float distance = (mode_of(hypothesis, model).center - mode.center).norm();
+    if (distance > kRunnerUpRadius * model.diagonal) best = std::max(best, hypothesis.support);
   }
+  return best;
 }
 
 void segment_object(const Hypotheses& object, ScanState& scan, const SegmentParams& params,
@@ -52,7 +50,8 @@ void segment_object(const Hypotheses& object, ScanState& scan, const SegmentPara
                             [](const PoseMode& mode) { return mode; }};
   for (const Candidate& candidate : find_instances(model, proposals, how, scan)) {
     Detection detection = make_detection(model, candidate);
-    report_support(object, candidate.mode, detection);
+    detection.density = candidate.mode.support;
+    detection.runner_up_density = runner_up_support(object, candidate.mode);
     found.items.push_back(std::move(detection));
   }
 }

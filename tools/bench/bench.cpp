@@ -14,6 +14,7 @@
 #include "tools/experiment/experiment.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
@@ -151,9 +152,7 @@ int bench_command(const BenchCommand& command) {
   for (const auto& [name, result] : methods.items()) print_stages(name, result);
   print_methods(methods);
   if (command.out.empty()) return 0;
-  std::ofstream stream(command.out);
-  stream << methods.dump(2) << "\n" << std::flush;
-  if (!stream) throw std::runtime_error(command.out + ": cannot be written");
+  write_text(command.out, methods.dump(2) + "\n");
   return 0;
 }
 

@@ -2,25 +2,18 @@
 #include "tools/evaluate/write_evaluation.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
 
 #include "tools/plot/line_chart.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text << std::flush;
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
-}
 
 std::string number(double value) {
   if (!std::isfinite(value)) return "";
@@ -178,12 +171,12 @@ ordered_json to_json(const Evaluation& evaluation) {
 
 void write_evaluation(const Evaluation& evaluation, const fs::path& folder) {
   fs::create_directories(folder);
-  write(folder / "evaluation.json", to_json(evaluation).dump(2) + "\n");
-  write(folder / "evaluation.csv", summary_csv(evaluation));
-  write(folder / "instances.csv", instances_csv(evaluation));
-  write(folder / "precision_recall.csv", curve_csv(evaluation));
-  write(folder / "precision_recall.svg", curve_svg(evaluation));
-  write(folder / "recall_visibility.svg", visibility_svg(evaluation));
+  write_text(folder / "evaluation.json", to_json(evaluation).dump(2) + "\n");
+  write_text(folder / "evaluation.csv", summary_csv(evaluation));
+  write_text(folder / "instances.csv", instances_csv(evaluation));
+  write_text(folder / "precision_recall.csv", curve_csv(evaluation));
+  write_text(folder / "precision_recall.svg", curve_svg(evaluation));
+  write_text(folder / "recall_visibility.svg", visibility_svg(evaluation));
 }
 
 }  // namespace posevote

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 #include "graph/registry.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
@@ -19,15 +19,9 @@ const std::vector<Method> kMethods = {{"posevote", "recognize"},
 
 std::vector<Method> methods_of_this_build() {
   std::vector<Method> methods = kMethods;
-  if (!graph::find_node("opencv_ppf")) methods.pop_back();
+  if (!graph::find_node("opencv_ppf"))
+    std::erase_if(methods, [](const Method& method) { return method.name == "opencv_ppf"; });
   return methods;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
 }
 
 }  // namespace

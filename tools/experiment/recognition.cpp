@@ -116,6 +116,11 @@ RunCommand make_run(const ExperimentCommand& command, const Method& method, cons
   return run;
 }
 
+double best_f1_of(const RuleResult& result) {
+  const auto best = best_f1(result.curve);
+  return best ? best->counts.f1() : 0;
+}
+
 std::string percent(double value) {
   char text[16];
   std::snprintf(text, sizeof text, "%.3f", value);
@@ -129,18 +134,13 @@ void print_table(const std::vector<Row>& rows) {
     const RuleResult& all = row.evaluation.all[0];
     const auto best = best_f1(all.curve);
     std::printf("%-24s %7.3f %9.3f %7.3f %8.3f %10.3f %8.2f\n", row.method.c_str(),
-                all.counts.recall(), all.counts.precision(), all.counts.f1(),
-                best ? best->counts.f1() : 0, best ? best->score : 0, row.seconds);
+                all.counts.recall(), all.counts.precision(), all.counts.f1(), best_f1_of(all),
+                best ? best->score : 0, row.seconds);
   }
 }
 
 std::string recall_and_f1(double recall, double f1) {
   return percent(recall) + " / " + percent(f1);
-}
-
-double best_f1_of(const RuleResult& result) {
-  const auto best = best_f1(result.curve);
-  return best ? best->counts.f1() : 0;
 }
 
 /// Per object, and the mean over the objects, which is what papers report.
@@ -171,14 +171,10 @@ void print_objects(const std::vector<Row>& rows) {
 nlohmann::ordered_json to_json(const RuleResult& result) {
   const Counts& counts = result.counts;
   const auto best = best_f1(result.curve);
-  return {{"instances", counts.instances},
-          {"detections", counts.detections},
-          {"correct", counts.correct},
-          {"recall", counts.recall()},
-          {"precision", counts.precision()},
-          {"f1", counts.f1()},
-          {"best_f1", best ? best->counts.f1() : 0},
-          {"threshold", best ? best->score : 0}};
+  return {{"instances", counts.instances},   {"detections", counts.detections},
+          {"correct", counts.correct},       {"recall", counts.recall()},
+          {"precision", counts.precision()}, {"f1", counts.f1()},
+          {"best_f1", best_f1_of(result)},   {"threshold", best ? best->score : 0}};
 }
 
 /// A row for each method over all objects, and for each object of it.

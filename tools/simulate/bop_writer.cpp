@@ -3,15 +3,13 @@
 
 #include <png.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 
 #include "nodes/write/write_ply.hpp"
 #include "tools/evaluate/extreme_points.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
@@ -26,15 +24,6 @@ std::string six_digits(int number) {
   char text[16];
   std::snprintf(text, sizeof text, "%06d", number);
   return text;
-}
-
-void write_file(const fs::path& file, const std::string& bytes) {
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << bytes;
-  stream.close();
-  if (!stream)
-    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 /// `{"key": [...], ...}` with one key a line, as BOP's own files.
@@ -110,7 +99,7 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
   const int im_id = images_++;
   const std::string key = std::to_string(im_id), name = six_digits(im_id);
   const Camera& camera = sensor.camera;
-  write_file(out_ / "test" / six_digits(kSceneId) / "depth" / (name + ".png"),
+  write_text(out_ / "test" / six_digits(kSceneId) / "depth" / (name + ".png"),
              encode_png(scan.depth));
   write_ply(out_ / "scans" / (name + ".ply"), points_of(scan.depth, camera));
   cameras_[key] = {{"cam_K", {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0}},
@@ -130,11 +119,11 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
 
 void BopWriter::finish() const {
   const fs::path scene = out_ / "test" / six_digits(kSceneId);
-  write_file(out_ / "models" / "models_info.json", lines(models_info_));
-  write_file(scene / "scene_camera.json", lines(cameras_));
-  write_file(scene / "scene_gt.json", lines(gt_));
-  write_file(scene / "scene_gt_info.json", lines(gt_info_));
-  write_file(out_ / "test_targets_bop19.json", targets_.dump(1) + "\n");
+  write_text(out_ / "models" / "models_info.json", lines(models_info_));
+  write_text(scene / "scene_camera.json", lines(cameras_));
+  write_text(scene / "scene_gt.json", lines(gt_));
+  write_text(scene / "scene_gt_info.json", lines(gt_info_));
+  write_text(out_ / "test_targets_bop19.json", targets_.dump(1) + "\n");
 }
 
 }  // namespace posevote

@@ -88,15 +88,17 @@ std::set<std::uint32_t> extremes(const Cloud& mesh, const std::set<std::uint32_t
 /// A body in Bullet, its frame at the centre of its mass.
 class Solid {
  public:
-  explicit Solid(const Cloud& mesh)
-      : center_(mass_of(mesh).center),
+  explicit Solid(const Cloud& mesh) : Solid(mesh, mass_of(mesh)) {}
+
+  Solid(const Cloud& mesh, const Mass& whole)
+      : center_(whole.center),
         reach_((mesh.points.cast<double>().rowwise() - center_.transpose())
                    .rowwise()
                    .norm()
                    .maxCoeff()) {
     for (const std::set<std::uint32_t>& piece : cut_up(mesh)) add_hull(mesh, piece);
     constexpr double kDensity = 300;  // [kg/m^3]
-    const auto mass = static_cast<btScalar>(kDensity * mass_of(mesh).volume);
+    const auto mass = static_cast<btScalar>(kDensity * whole.volume);
     btVector3 inertia(0, 0, 0);
     compound_.calculateLocalInertia(mass, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &compound_, inertia);

@@ -53,8 +53,8 @@ std::vector<Mesh> make_clutter(const Spec& spec) {
   return clutter;
 }
 
-Studio open_studio(const std::string& spec_file) {
-  Studio studio{read_spec(spec_file), {}, {}};
+Studio open_studio(const Spec& spec) {
+  Studio studio{spec, {}, {}};
   for (const ModelSpec& model : studio.spec.models)
     studio.models.push_back(
         make_mesh(model.shape, static_cast<std::uint64_t>(model.seed), model.size));
@@ -90,6 +90,7 @@ struct Image {
 
 /// Whether as much is seen of each object as the scene asks for.
 bool fits(const Image& image, const SceneSpec& scene) {
+  if (scene.least_surface <= 0 && scene.most_surface >= 1) return true;
   const std::vector<double> seen = seen_surfaces(image.bodies, image.sensor, image.T_world_sensor);
   for (std::size_t i = 0; i < seen.size(); ++i)
     if (image.bodies[i].obj_id != 0 &&
@@ -160,9 +161,10 @@ void make_images(const Studio& studio, std::size_t step, BopWriter& writer) {
 }  // namespace
 
 void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
-  const Studio studio = open_studio(spec_file);
+  const Spec spec = read_spec(spec_file);
   if (fs::exists(out) && (!fs::is_directory(out) || !fs::is_empty(out)))
     throw std::invalid_argument(out.string() + ": is not an empty folder; choose another --out");
+  const Studio studio = open_studio(spec);
   // Under its name there is a whole set or none.
   const fs::path folder = out.has_filename() ? out : out.parent_path();
   const fs::path unfinished = folder.string() + ".unfinished";
