@@ -2,187 +2,60 @@
 #include "nodes/segment/find_instances.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "graph/parallel.hpp"
-#include "nodes/segment/icp.hpp"
-#include "nodes/segment/refine_mode.hpp"
 
 namespace posevote {
 namespace {
 
-constexpr std::size_t kShortlist = 100;  // judged by kLook model points
-constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
-constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
-constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
-constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
-constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
+using Searches = std::vector<ObjectSearch*>;
 
-// A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
-// votes and fit are evidence of their own, but true instances differ much in how much of them is
-// seen.
-constexpr double kTrustInSupport = 0.1;
-
-using Candidates = std::vector<Candidate>;
-
-void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
-  std::stable_sort(begin, end,
-                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+Searches sorted_by_id(std::vector<ObjectSearch>& searches) {
+  Searches sorted;
+  for (ObjectSearch& search : searches) sorted.push_back(&search);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const ObjectSearch* a, const ObjectSearch* b) {
+    return a->model().obj_id < b->model().obj_id;
+  });
+  return sorted;
 }
 
-/// One object in one scan, and what of it was found.
-class Search {
- public:
-  Search(const Model& model, const Proposals& proposals, const InstanceParams& params,
-         ScanState& scan)
-      : model_(model),
-        rim_(model.cloud, kRimReach * params.tolerance),
-        proposals_(proposals),
-        params_(params),
-        scan_(scan) {}
+/// Where other poses may be proposed, they are. False if nowhere.
+bool propose(const Searches& searches) {
+  Searches open;
+  for (ObjectSearch* search : searches)
+    if (search->may_propose()) open.push_back(search);
+  graph::parallel_for(open.size(), 1, [&](std::size_t i) { open[i]->propose(); });
+  return !open.empty();
+}
 
-  Candidates run() {
-    Candidates found;
-    bool fresh = false;  // whether the pool was filled since the last find
-    while (found.size() < static_cast<std::size_t>(params_.max_instances)) {
-      if (pool_.empty()) {
-        fill_pool();
-        fresh = true;
-      }
-      const std::optional<Candidate> best = choose();
-      if (!best || best->score < params_.min_score) {
-        if (fresh) break;
-        pool_.clear();  // what was found may have uncovered other modes
-        continue;
-      }
-      found.push_back(*best);
-      take(*best);
-      fresh = false;
-    }
-    return found;
+/// The search that has the best pose for the scan as it is now; null if none has any. Scores of
+/// before are upper bounds, so most of them need no second look.
+ObjectSearch* best_of(const Searches& searches) {
+  for (;;) {
+    ObjectSearch* best = nullptr;
+    for (ObjectSearch* search : searches)
+      if (search->best() && (!best || search->best()->score > best->best()->score)) best = search;
+    if (!best || best->is_current()) return best;
+    best->choose();
   }
-
- private:
-  /// The short list of what is proposed, the best first.
-  void fill_pool() {
-    most_support_ = 1e-9;
-    for (const PoseMode& mode : proposals_.propose(scan_, taken_)) {
-      pool_.emplace_back().mode = mode;
-      most_support_ = std::max(most_support_, mode.support);
-    }
-    if (pool_.size() > kShortlist) {
-      judge(0, pool_.size(), kGlance);
-      pool_.resize(kShortlist);
-    }
-    graph::parallel_for(pool_.size(), 1, [this](std::size_t i) {
-      pool_[i].mode = proposals_.improve(pool_[i].mode);
-    });
-    judge(0, pool_.size(), kLook);
-    judged_ = true;
-  }
-
-  /// Scores part of the pool by some model points and sorts all up to its end.
-  void judge(std::size_t begin, std::size_t end, Eigen::Index samples) {
-    graph::parallel_for(end - begin, 1, [&](std::size_t i) {
-      Candidate& candidate = pool_[begin + i];
-      candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
-      candidate.fit = measure(candidate.T_scene_model, samples);
-      set_score(candidate);
-    });
-    sort_by_rank(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(end));
-  }
-
-  /// Brings the finalists to the front. Scores of before the last find are taken as upper bounds,
-  /// because points that were taken out support nothing any more.
-  void judge_again() {
-    constexpr std::size_t kBatch = 2 * kFinalists;
-    for (std::size_t done = 0; done < pool_.size();) {
-      const std::size_t end = std::min(done + kBatch, pool_.size());
-      judge(done, end, kLook);
-      done = end;
-      if (done < pool_.size() && pool_[kFinalists - 1].rank >= pool_[done].rank) break;
-    }
-    std::erase_if(pool_, [](const Candidate& candidate) { return candidate.score == 0; });
-    judged_ = true;
-  }
-
-  /// The best of the finalists after ICP. Those that ICP carries onto an instance that is found
-  /// already leave the pool.
-  std::optional<Candidate> choose() {
-    if (!judged_) judge_again();
-    while (!pool_.empty()) {
-      const std::size_t count = std::min(kFinalists, pool_.size());
-      Candidates finalists(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
-      graph::parallel_for(count, 1, [&](std::size_t i) { refine(finalists[i]); });
-      sort_by_rank(finalists.begin(), finalists.end());
-      for (const Candidate& candidate : finalists)
-        if (is_clear(center_of(candidate))) return candidate;
-      pool_.erase(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
-    }
-    return std::nullopt;
-  }
-
-  /// ICP, kept where it keeps the support that the mode had.
-  void refine(Candidate& candidate) const {
-    candidate.fit = measure(candidate.T_scene_model, 0);
-    if (params_.refine) {
-      const Eigen::Isometry3d T_refined =
-          icp(model_.cloud, scan_.surface, candidate.T_scene_model,
-              {params_.icp_iterations, params_.icp_distance, params_.tolerance});
-      const Fit refined = measure(T_refined, 0);
-      const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
-      if (static_cast<double>(refined.supported) >= fewest) {
-        candidate.T_scene_model = T_refined;
-        candidate.fit = refined;
-      }
-    }
-    set_score(candidate);
-  }
-
-  void set_score(Candidate& candidate) const {
-    candidate.score = fit_score(candidate.fit);
-    candidate.rank =
-        candidate.score * std::pow(candidate.mode.support / most_support_, kTrustInSupport);
-  }
-
-  void take(const Candidate& found) {
-    taken_.push_back(found.mode.center);
-    taken_.push_back(center_of(found));
-    scan_.take_out(model_, found.T_scene_model, params_.explained_distance);
-    std::erase_if(pool_, [this](const Candidate& other) { return !is_clear(other.mode.center); });
-    judged_ = false;
-  }
-
-  Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const {
-    return measure_fit(model_.cloud, rim_, scan_.surface, scan_.view, T_scene_model,
-                       params_.tolerance, samples);
-  }
-  Eigen::Vector3f center_of(const Candidate& candidate) const {
-    return (candidate.T_scene_model * model_.center.cast<double>()).cast<float>();
-  }
-  bool is_clear(const Eigen::Vector3f& center) const {
-    return std::all_of(taken_.begin(), taken_.end(), [&](const Eigen::Vector3f& other) {
-      return (center - other).norm() > params_.nms_radius;
-    });
-  }
-
-  const Model& model_;
-  ModelRim rim_;
-  const Proposals& proposals_;
-  const InstanceParams& params_;
-  ScanState& scan_;
-  Candidates pool_;          ///< the best first, as far as they were judged
-  double most_support_ = 1;  ///< in the pool as it was filled
-  bool judged_ = false;      ///< whether the first of the pool were judged since the last find
-  std::vector<Eigen::Vector3f> taken_;  ///< centres of what was found
-};
+}
 
 }  // namespace
 
-std::vector<Candidate> find_instances(const Model& model, const Proposals& proposals,
-                                      const InstanceParams& params, ScanState& scan) {
-  return Search(model, proposals, params, scan).run();
+std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
+  const Searches sorted = sorted_by_id(searches);
+  std::vector<Instance> found;
+  // When all that was proposed is used up, what was taken out may have uncovered other modes.
+  while (propose(sorted))
+    while (ObjectSearch* search = best_of(sorted)) {
+      const Instance& instance = found.emplace_back(
+          Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
+      search->accept();
+      scan.take_out(search->model(), instance.candidate.T_scene_model,
+                    search->params().explained_distance);
+      search->choose();
+    }
+  return found;
 }
 
 }  // namespace posevote

@@ -20,6 +20,7 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
 
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {
+  ++takes;
   const PointGrid grid(model.cloud.points, distance);
   surface.take_out(
       explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance));

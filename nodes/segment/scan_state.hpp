@@ -25,6 +25,7 @@ struct ScanState {
   RangeView view;
   ScanSurface surface;
   std::vector<char> feature_explained;  // per scene feature
+  int takes = 0;                        // how often something was taken out
 };
 
 }  // namespace posevote

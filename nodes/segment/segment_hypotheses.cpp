@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What segment_objects does for votes, for the poses that a rival proposes: objects one by one, the
-// best supported first; for each the poses that agree best with the scan, refined by ICP, and what
-// they explain taken out. Candidates, scores and thresholds are the same (find_instances.hpp), so
-// that a comparison is of what proposes the poses. As `density` a detection reports the support of
-// the hypothesis that it came from.
+// What segment_objects does for votes, for the poses that a rival proposes: each time the pose that
+// agrees best with the scan, of whatever object, refined by ICP, and what it explains taken out.
+// Candidates, scores and thresholds are the same (find_instances.hpp), so that a comparison is of
+// what proposes the poses. As `density` a detection reports the support of the hypothesis that it
+// came from.
 //
 //   segment_hypotheses: {in: [hypotheses, scene_features, scene_cloud, scale], out: detections}
 #include <algorithm>
-#include <numeric>
 
 #include "nodes/data/hypotheses.hpp"
 #include "nodes/segment/segment_params.hpp"
@@ -18,10 +17,6 @@ namespace {
 PoseMode mode_of(const Hypothesis& hypothesis, const Model& model) {
   return {(hypothesis.T_scene_model * model.center.cast<double>()).cast<float>(),
           Eigen::Quaternionf(hypothesis.T_scene_model.linear().cast<float>()), hypothesis.support};
-}
-
-double support_of(const Hypotheses& object) {
-  return object.items.empty() ? 0 : object.items.front().support;
 }
 
 /// The best support of a hypothesis elsewhere.
@@ -35,25 +30,17 @@ double runner_up_support(const Hypotheses& object, const PoseMode& mode) {
   return best;
 }
 
-void segment_object(const Hypotheses& object, ScanState& scan, const SegmentParams& params,
-                    Detections& found) {
-  const Model& model = *object.model;
-  const InstanceParams how = instance_params(params, model, scan.resolution);
-  const Proposals proposals{[&](const ScanState&, const std::vector<Eigen::Vector3f>& taken) {
-                              std::vector<PoseMode> modes;
-                              for (const Hypothesis& hypothesis : object.items)
-                                if (hypothesis.support >= params.min_density)
-                                  modes.push_back(mode_of(hypothesis, model));
-                              return separate_modes(modes, taken, how.nms_radius,
-                                                    static_cast<std::size_t>(params.candidates));
-                            },
-                            [](const PoseMode& mode) { return mode; }};
-  for (const Candidate& candidate : find_instances(model, proposals, how, scan)) {
-    Detection detection = make_detection(model, candidate);
-    detection.density = candidate.mode.support;
-    detection.runner_up_density = runner_up_support(object, candidate.mode);
-    found.items.push_back(std::move(detection));
-  }
+Proposals propose_from(const Hypotheses& object, const SegmentParams& params, float nms_radius) {
+  return {
+      [&object, &params, nms_radius](const ScanState&, const std::vector<Eigen::Vector3f>& taken) {
+        std::vector<PoseMode> modes;
+        for (const Hypothesis& hypothesis : object.items)
+          if (hypothesis.support >= params.min_density)
+            modes.push_back(mode_of(hypothesis, *object.model));
+        return separate_modes(modes, taken, nms_radius,
+                              static_cast<std::size_t>(params.candidates));
+      },
+      [](const PoseMode& mode) { return mode; }};
 }
 
 Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
@@ -61,14 +48,20 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
                               const Scale& scale, const SegmentParams& params) {
   check_scan(scene_features, scene_cloud, scale);
   for (const auto& object : objects.slots) check_model(*object->model);
-  std::vector<std::size_t> order(objects.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return support_of(objects[a]) > support_of(objects[b]);
-  });
   ScanState scan(scene_cloud, scene_features, scale.resolution);
+  std::vector<ObjectSearch> searches;
+  for (const auto& object : objects.slots) {
+    const InstanceParams how = instance_params(params, *object->model, scan.resolution);
+    searches.emplace_back(*object->model, propose_from(*object, params, how.nms_radius), how, scan);
+  }
   Detections found;
-  for (const std::size_t i : order) segment_object(objects[i], scan, params, found);
+  for (const Instance& instance : find_instances(searches, scan)) {
+    const Hypotheses& object = objects[instance.object];
+    Detection& detection =
+        found.items.emplace_back(make_detection(*object.model, instance.candidate));
+    detection.density = instance.candidate.mode.support;
+    detection.runner_up_density = runner_up_support(object, instance.candidate.mode);
+  }
   return found;
 }
 

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/object_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graph/parallel.hpp"
+#include "nodes/segment/icp.hpp"
+#include "nodes/segment/refine_mode.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr std::size_t kShortlist = 100;  // judged by kLook model points
+constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
+constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
+constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
+constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
+constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
+
+// A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
+// votes and fit are evidence of their own, but true instances differ much in how much of them is
+// seen.
+constexpr double kTrustInSupport = 0.1;
+
+using Candidates = std::vector<Candidate>;
+
+void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
+  std::stable_sort(begin, end,
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+}
+
+}  // namespace
+
+ObjectSearch::ObjectSearch(const Model& model, Proposals proposals, const InstanceParams& params,
+                           const ScanState& scan)
+    : model_(model),
+      rim_(model.cloud, kRimReach * params.tolerance),
+      proposals_(std::move(proposals)),
+      params_(params),
+      scan_(scan) {}
+
+void ObjectSearch::propose() {
+  most_support_ = 1e-9;
+  pool_.clear();
+  for (const PoseMode& mode : proposals_.propose(scan_, taken_)) {
+    pool_.emplace_back().mode = mode;
+    most_support_ = std::max(most_support_, mode.support);
+  }
+  if (pool_.size() > kShortlist) {
+    judge(0, pool_.size(), kGlance);
+    pool_.resize(kShortlist);
+  }
+  graph::parallel_for(pool_.size(), 1,
+                      [this](std::size_t i) { pool_[i].mode = proposals_.improve(pool_[i].mode); });
+  judge(0, pool_.size(), kLook);
+  proposed_at_ = judged_at_ = scan_.takes;
+  choose();
+}
+
+void ObjectSearch::choose() {
+  if (judged_at_ != scan_.takes) judge_again();
+  best_ = is_full() ? std::nullopt : best_finalist();
+  chosen_at_ = scan_.takes;
+  if (best_ && best_->score > 0 && best_->score >= params_.min_score) return;
+  best_.reset();
+  pool_.clear();
+}
+
+void ObjectSearch::accept() {
+  taken_.push_back(best_->mode.center);
+  taken_.push_back(center_of(*best_));
+  ++accepted_;
+  best_.reset();
+  std::erase_if(pool_, [this](const Candidate& other) { return !is_clear(other.mode.center); });
+}
+
+/// Scores part of the pool by some model points and sorts all up to its end.
+void ObjectSearch::judge(std::size_t begin, std::size_t end, Eigen::Index samples) {
+  graph::parallel_for(end - begin, 1, [&](std::size_t i) {
+    Candidate& candidate = pool_[begin + i];
+    candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
+    candidate.fit = measure(candidate.T_scene_model, samples);
+    set_score(candidate);
+  });
+  sort_by_rank(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+/// Brings the finalists to the front. Scores of before something was taken out are taken as upper
+/// bounds.
+void ObjectSearch::judge_again() {
+  constexpr std::size_t kBatch = 2 * kFinalists;
+  for (std::size_t done = 0; done < pool_.size();) {
+    const std::size_t end = std::min(done + kBatch, pool_.size());
+    judge(done, end, kLook);
+    done = end;
+    if (done < pool_.size() && pool_[kFinalists - 1].rank >= pool_[done].rank) break;
+  }
+  std::erase_if(pool_, [](const Candidate& candidate) { return candidate.score == 0; });
+  judged_at_ = scan_.takes;
+}
+
+/// The best of the finalists after ICP. Those that ICP carries onto an instance that is found
+/// already leave the pool.
+std::optional<Candidate> ObjectSearch::best_finalist() {
+  while (!pool_.empty()) {
+    const std::size_t count = std::min(kFinalists, pool_.size());
+    Candidates finalists(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
+    graph::parallel_for(count, 1, [&](std::size_t i) { refine(finalists[i]); });
+    sort_by_rank(finalists.begin(), finalists.end());
+    for (const Candidate& candidate : finalists)
+      if (is_clear(center_of(candidate))) return candidate;
+    pool_.erase(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  return std::nullopt;
+}
+
+/// ICP, kept where it keeps the support that the mode had.
+void ObjectSearch::refine(Candidate& candidate) const {
+  candidate.fit = measure(candidate.T_scene_model, 0);
+  if (params_.refine) {
+    const Eigen::Isometry3d T_refined =
+        icp(model_.cloud, scan_.surface, candidate.T_scene_model,
+            {params_.icp_iterations, params_.icp_distance, params_.tolerance});
+    const Fit refined = measure(T_refined, 0);
+    const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
+    if (static_cast<double>(refined.supported) >= fewest) {
+      candidate.T_scene_model = T_refined;
+      candidate.fit = refined;
+    }
+  }
+  set_score(candidate);
+}
+
+void ObjectSearch::set_score(Candidate& candidate) const {
+  candidate.score = fit_score(candidate.fit);
+  candidate.rank =
+      candidate.score * std::pow(candidate.mode.support / most_support_, kTrustInSupport);
+}
+
+Fit ObjectSearch::measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const {
+  return measure_fit(model_.cloud, rim_, scan_.surface, scan_.view, T_scene_model,
+                     params_.tolerance, samples);
+}
+
+Eigen::Vector3f ObjectSearch::center_of(const Candidate& candidate) const {
+  return (candidate.T_scene_model * model_.center.cast<double>()).cast<float>();
+}
+
+bool ObjectSearch::is_clear(const Eigen::Vector3f& center) const {
+  return std::all_of(taken_.begin(), taken_.end(), [&](const Eigen::Vector3f& other) {
+    return (center - other).norm() > params_.nms_radius;
+  });
+}
+
+}  // namespace posevote
