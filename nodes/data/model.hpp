@@ -2,6 +2,7 @@
 // A trained object model, and the library of all models that scenes are matched against.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,11 @@
 #include "nodes/data/features.hpp"
 
 namespace posevote {
+
+/// Motions in the model's own frame that carry it nearly onto itself (find_near_symmetries).
+struct NearSymmetries {
+  std::vector<Eigen::Isometry3d> motions;
+};
 
 class DescriptorIndex;  // nodes/match/descriptor_index.hpp
 
@@ -21,6 +27,7 @@ struct Model {
   Eigen::Vector3f center =
       Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
   float diagonal = 0;           ///< of that bounding box [m]
+  NearSymmetries near_symmetries;
 };
 
 /// All models of a run. Matching searches one index that holds every model's descriptors.

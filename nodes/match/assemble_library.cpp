@@ -9,8 +9,8 @@
 //
 // Fails where two models have the same obj_id, or descriptors differ in length. Time: O(size).
 //
-//   assemble_library: {in: [model_files, model_meshes, model_clouds, model_features, scale],
-//                      out: library, search: exact}
+//   assemble_library: {in: [model_files, model_meshes, model_clouds, model_features,
+//                           near_symmetries, scale], out: library, search: exact}
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -26,13 +26,18 @@ namespace {
 using Params = IndexOptions;
 
 Model assemble_model(const ModelFile& file, const Cloud& mesh, const Cloud& cloud,
-                     const FeatureSet& features) {
+                     const FeatureSet& features, const NearSymmetries& near_symmetries) {
   if (mesh.points.rows() == 0) throw std::runtime_error(file.path.string() + ": has no points");
-  Model model{file.name, file.obj_id, cloud, features};
+  Model model;
+  model.name = file.name;
+  model.obj_id = file.obj_id;
+  model.cloud = cloud;
+  model.features = features;
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   model.center = (0.5F * (low + high)).transpose();
   model.diagonal = (high - low).norm();
+  model.near_symmetries = near_symmetries;
   return model;
 }
 
@@ -48,19 +53,22 @@ void require_distinct_ids(const ModelLibrary& library) {
 
 ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Cloud>& meshes,
                               const PerObject<Cloud>& clouds, const PerObject<FeatureSet>& features,
-                              const Scale& scale, const Params& params) {
+                              const PerObject<NearSymmetries>& near_symmetries, const Scale& scale,
+                              const Params& params) {
   const std::size_t count = files.size();
   if (count == 0) throw std::runtime_error("there are no models");
-  if (meshes.size() != count || clouds.size() != count || features.size() != count)
+  if (meshes.size() != count || clouds.size() != count || features.size() != count ||
+      near_symmetries.size() != count)
     throw std::runtime_error(std::to_string(count) + " model files, but " +
                              std::to_string(meshes.size()) + " meshes, " +
-                             std::to_string(clouds.size()) + " clouds and " +
-                             std::to_string(features.size()) + " feature sets");
+                             std::to_string(clouds.size()) + " clouds, " +
+                             std::to_string(features.size()) + " feature sets and " +
+                             std::to_string(near_symmetries.size()) + " lists of near symmetries");
   ModelLibrary library;
   library.scale = scale;
   for (std::size_t i = 0; i < count; ++i)
-    library.models.push_back(
-        std::make_shared<const Model>(assemble_model(files[i], meshes[i], clouds[i], features[i])));
+    library.models.push_back(std::make_shared<const Model>(
+        assemble_model(files[i], meshes[i], clouds[i], features[i], near_symmetries[i])));
   std::stable_sort(library.models.begin(), library.models.end(),
                    [](const auto& a, const auto& b) { return a->obj_id < b->obj_id; });
   require_distinct_ids(library);
@@ -75,6 +83,7 @@ const auto registered =
         .input("model_meshes")
         .input("model_clouds")
         .input("model_features")
+        .input("near_symmetries")
         .input("scale")
         .output("library")
         .param("search", &Params::search, "",

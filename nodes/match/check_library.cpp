@@ -63,6 +63,9 @@ void check_model(const Model& model) {
   check_features(model.features);
   require_inside(model.cloud.points, model, "points");
   require_inside(model.features.points, model, "feature points");
+  for (const Eigen::Isometry3d& motion : model.near_symmetries.motions)
+    require(motion.matrix().allFinite() && motion.linear().isUnitary(1e-6),
+            "a near symmetry is no motion");
 }
 
 }  // namespace

@@ -28,12 +28,22 @@ void put_model(ByteWriter& out, const Model& model) {
   for (const std::uint32_t width : model.features.blocks) out.put(width);
   out.put_matrix(model.center);
   out.put(model.diagonal);
+  out.put(std::uint64_t{model.near_symmetries.motions.size()});
+  for (const Eigen::Isometry3d& motion : model.near_symmetries.motions)
+    out.put_matrix(Eigen::Matrix4d(motion.matrix()));
 }
 
 Eigen::Vector3f get_vector(ByteReader& in) {
   const auto values = in.get_matrix<Eigen::VectorXf>();
   if (values.size() != 3) throw std::runtime_error("is damaged: a vector is not of length 3");
   return values;
+}
+
+Eigen::Isometry3d get_motion(ByteReader& in) {
+  const auto values = in.get_matrix<Eigen::MatrixXd>();
+  if (values.rows() != 4 || values.cols() != 4)
+    throw std::runtime_error("is damaged: a motion is not of 4 x 4 numbers");
+  return Eigen::Isometry3d(Eigen::Matrix4d(values));
 }
 
 Cloud get_cloud(ByteReader& in) {
@@ -59,6 +69,9 @@ Model get_model(ByteReader& in) {
     model.features.blocks.push_back(in.get<std::uint32_t>());
   model.center = get_vector(in);
   model.diagonal = in.get<float>();
+  const auto motions = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < motions; ++i)
+    model.near_symmetries.motions.push_back(get_motion(in));
   return model;
 }
 

@@ -109,10 +109,27 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
     graph::parallel_for(count, 1, [&](std::size_t i) { refine(finalists[i]); });
     sort_by_rank(finalists.begin(), finalists.end());
     for (const Candidate& candidate : finalists)
-      if (is_clear(center_of(candidate))) return candidate;
+      if (is_clear(center_of(candidate))) return best_alike(candidate);
     pool_.erase(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
   }
   return std::nullopt;
+}
+
+/// The best of a pose and those that look nearly like it. They share the mode that proposed it.
+Candidate ObjectSearch::best_alike(const Candidate& candidate) const {
+  Candidates alike(model_.near_symmetries.motions.size(), candidate);
+  graph::parallel_for(alike.size(), 1, [&](std::size_t i) {
+    alike[i].T_scene_model = candidate.T_scene_model * model_.near_symmetries.motions[i];
+    alike[i].fit = measure(alike[i].T_scene_model, kLook);
+    set_score(alike[i]);
+  });
+  sort_by_rank(alike.begin(), alike.end());
+  alike.resize(std::min(kFinalists, alike.size()));
+  graph::parallel_for(alike.size(), 1, [&](std::size_t i) { refine(alike[i]); });
+  Candidate best = candidate;
+  for (const Candidate& other : alike)
+    if (other.rank > best.rank && is_clear(center_of(other))) best = other;
+  return best;
 }
 
 /// ICP, kept where it keeps the support that the mode had.

@@ -75,6 +75,7 @@ class ObjectSearch {
   void judge_again();
   std::optional<Candidate> best_finalist();
   void refine(Candidate& candidate) const;
+  Candidate best_alike(const Candidate& candidate) const;
   void set_score(Candidate& candidate) const;
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const;
   Eigen::Vector3f center_of(const Candidate& candidate) const;

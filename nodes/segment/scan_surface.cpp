@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/segment/scan_surface.hpp"
 
-#include <algorithm>
-
 namespace posevote {
 namespace {
 
@@ -16,14 +14,15 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
           T.linear() * Eigen::Vector3f(cloud.normals.row(i).transpose())};
 }
 
-ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float cell)
+ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach)
     : points_(scan.points),
       normals_(scan.normals),
       gone_(static_cast<std::size_t>(scan.points.rows()), 0),
       viewpoint_(scan.viewpoint),
       single_view_(single_view),
-      cell_(cell),
-      grid_(points_, cell) {
+      reach_(reach),
+      near_(points_, reach),
+      far_(points_, reach) {
   for (std::size_t i = 0; i < gone_.size(); ++i) {
     const bool usable = normals_.row(static_cast<Eigen::Index>(i)).squaredNorm() > 0.5F;
     gone_[i] = static_cast<char>(!usable);
@@ -43,16 +42,13 @@ bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
 
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
                                                    float distance) const {
-  std::optional<Neighbour> best;
-  // Most points of a good pose have their partner close by: look there first.
-  for (const float reach : {std::min(distance, 0.5F * cell_), distance}) {
-    grid_.for_each_within(point, reach, [this, &best](std::uint32_t index, float squared) {
-      if (gone_[index]) return;
-      if (!best || squared < best->squared || (squared == best->squared && index < best->index))
-        best = Neighbour{index, squared};
-    });
-    if (best) break;
-  }
+  std::optional<Neighbour> best = near_.nearest(point, distance, gone_);
+  if (best || distance <= reach_) return best;
+  far_.for_each_within(point, distance, [this, &best](std::uint32_t index, float squared) {
+    if (gone_[index]) return;
+    if (!best || squared < best->squared || (squared == best->squared && index < best->index))
+      best = Neighbour{index, squared};
+  });
   return best;
 }
 

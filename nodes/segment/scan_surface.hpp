@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/prepare/grid.hpp"
+#include "nodes/prepare/neighbourhoods.hpp"
 
 namespace posevote {
 
@@ -26,8 +26,8 @@ class ScanSurface {
  public:
   /// The points of `scan`; those without a normal are never found. `single_view`: whether the scan
   /// is what one sensor at its viewpoint saw (RangeView::usable); if not, a point counts as visible
-  /// whichever way it looks. `cell`: about the distance that is asked for most [m].
-  ScanSurface(const Cloud& scan, bool single_view, float cell);
+  /// whichever way it looks. `reach`: the distance that is asked for most [m].
+  ScanSurface(const Cloud& scan, bool single_view, float reach);
 
   /// From now on, points with explained[row] are not found either.
   void take_out(const std::vector<char>& explained);
@@ -45,8 +45,9 @@ class ScanSurface {
   std::vector<char> gone_;  // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;
   bool single_view_;
-  float cell_;
-  PointGrid grid_;
+  float reach_;
+  Neighbourhoods near_;  ///< up to `reach`
+  PointGrid far_;        ///< beyond
 };
 
 }  // namespace posevote

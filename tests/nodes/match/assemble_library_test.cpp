@@ -6,6 +6,16 @@
 using namespace posevote;
 using namespace posevote::test;
 
+namespace {
+
+PerObject<NearSymmetries> one_empty() {
+  PerObject<NearSymmetries> list;
+  list.slots = {std::make_shared<const NearSymmetries>()};
+  return list;
+}
+
+}  // namespace
+
 TEST_CASE("a library holds the models by obj_id, with centre and diagonal of the mesh", "[match]") {
   const ModelLibrary library = make_library({{1, 2}, {3}, {4}}, {}, {7, 2, 5});
   REQUIRE(library.models.size() == 3);
@@ -26,7 +36,7 @@ TEST_CASE("the centre is that of the mesh, not of the sampled cloud", "[match]")
   cloud.slots = {std::make_shared<const Cloud>(box_cloud({0, 0, 0}, {1, 1, 1}))};
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   const auto library = run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                                              mesh, cloud, features, Scale{0.002F});
+                                              mesh, cloud, features, one_empty(), Scale{0.002F});
   CHECK(library.models[0]->center.isApprox(Eigen::Vector3f(1, 0.5F, 0.5F)));
   CHECK(library.models[0]->cloud.points == cloud[0].points);
 }
@@ -35,15 +45,16 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
   CHECK_THROWS_WITH(make_library({}), Catch::Contains("no models"));
   CHECK_THROWS_WITH(make_library({{1}, {2}}, {}, {3, 3}), Catch::Contains("same obj_id 3"));
   CHECK_THROWS_WITH(make_library({{1}}, {{"search", "quick"}}), Catch::Contains("search"));
-  CHECK_THROWS_WITH(run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                                           PerObject<Cloud>{}, PerObject<Cloud>{},
-                                           PerObject<FeatureSet>{}, Scale{1}),
-                    Catch::Contains("1 model files, but 0 meshes"));
+  CHECK_THROWS_WITH(
+      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
+                             PerObject<Cloud>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
+                             PerObject<NearSymmetries>{}, Scale{1}),
+      Catch::Contains("1 model files, but 0 meshes"));
   PerObject<Cloud> empty;
   empty.slots = {std::make_shared<const Cloud>()};
   PerObject<FeatureSet> features;
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   CHECK_THROWS_WITH(run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                                           empty, empty, features, Scale{1}),
+                                           empty, empty, features, one_empty(), Scale{1}),
                     Catch::Contains("a.ply: has no points"));
 }

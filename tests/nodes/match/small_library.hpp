@@ -41,6 +41,7 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
   ModelFiles files;
   PerObject<Cloud> meshes, clouds;
   PerObject<FeatureSet> features;
+  PerObject<NearSymmetries> near_symmetries;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int id = obj_ids.empty() ? static_cast<int>(i) + 1 : obj_ids[i];
     files.push_back({"m" + std::to_string(id) + ".ply", id, "m" + std::to_string(id)});
@@ -48,9 +49,11 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
     meshes.slots.push_back(std::make_shared<const Cloud>(cloud));
     clouds.slots.push_back(std::make_shared<const Cloud>(cloud));
     features.slots.push_back(std::make_shared<const FeatureSet>(features_at(values[i])));
+    near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(
+        NearSymmetries{{Eigen::Isometry3d(Eigen::AngleAxisd(id, Eigen::Vector3d::UnitZ()))}}));
   }
   return run_node<ModelLibrary>("assemble_library", params, files, meshes, clouds, features,
-                                Scale{0.002F});
+                                near_symmetries, Scale{0.002F});
 }
 
 }  // namespace posevote::test
