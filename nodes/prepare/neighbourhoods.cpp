@@ -54,7 +54,7 @@ Neighbourhoods::Neighbourhoods(const PointMatrix& points, float reach) : reach_(
     cubes_.back().end = k + 1;
     points_.push_back({points(i, 0), points(i, 1), points(i, 2), i});
   }
-  slots_.resize(std::bit_ceil(2 * 27 * cubes_.size()));
+  slots_.resize(std::bit_ceil(8 * cubes_.size()));
   for_each_neighbour([this](std::uint64_t key, const Run&) { ++claim(key).end; });
   std::uint32_t sum = 0;
   for (Slot& slot : slots_) {
@@ -102,8 +102,22 @@ Neighbourhoods::Slot& Neighbourhoods::claim(std::uint64_t key) {
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = scatter(key, mask);
   while (slots_[at].end != 0 && slots_[at].key != key) at = (at + 1) & mask;
+  if (slots_[at].end != 0) return slots_[at];
+  if (2 * ++claimed_ > slots_.size()) {
+    grow();
+    --claimed_;
+    return claim(key);
+  }
   slots_[at].key = key;
   return slots_[at];
+}
+
+void Neighbourhoods::grow() {
+  std::vector<Slot> old(2 * slots_.size());
+  old.swap(slots_);
+  claimed_ = 0;
+  for (const Slot& slot : old)
+    if (slot.end != 0) claim(slot.key).end = slot.end;
 }
 
 std::optional<Neighbour> Neighbourhoods::nearest(const Eigen::Vector3f& center, float distance,

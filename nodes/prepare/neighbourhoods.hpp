@@ -47,6 +47,7 @@ class Neighbourhoods {
   std::array<std::int64_t, 3> cube_of(float x, float y, float z) const;
   const Slot* find(std::uint64_t key) const;
   Slot& claim(std::uint64_t key);
+  void grow();
   template <class Visit>
   void for_each_neighbour(const Visit& visit) const;
 
@@ -57,6 +58,7 @@ class Neighbourhoods {
   std::vector<Run> cubes_;     ///< those occupied
   std::vector<Run> runs_;      ///< those around each cube
   std::vector<Slot> slots_;    ///< open addressing, a power of two; an empty stretch is free
+  std::size_t claimed_ = 0;    ///< slots that are not free
 };
 
 }  // namespace posevote

@@ -17,6 +17,7 @@ constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal a
 constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
 constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
+constexpr double kHopeless = 0.5;        // x the best rank: ICP does not double a rank
 
 // A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
 // votes and fit are evidence of their own, but true instances differ much in how much of them is
@@ -79,7 +80,8 @@ void ObjectSearch::accept() {
 void ObjectSearch::judge(std::size_t begin, std::size_t end, Eigen::Index samples) {
   graph::parallel_for(end - begin, 1, [&](std::size_t i) {
     Candidate& candidate = pool_[begin + i];
-    candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
+    if (!candidate.is_refined)
+      candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
     candidate.fit = measure(candidate.T_scene_model, samples);
     set_score(candidate);
   });
@@ -100,17 +102,24 @@ void ObjectSearch::judge_again() {
   judged_at_ = scan_.takes;
 }
 
+/// Refines the first of a sorted list, as many as may turn out the best. Returns their end.
+Candidates::iterator ObjectSearch::refine_best(Candidates& sorted) const {
+  const std::size_t most = std::min(kFinalists, sorted.size());
+  std::size_t count = 0;
+  while (count < most && sorted[count].rank >= kHopeless * sorted[0].rank) ++count;
+  graph::parallel_for(count, 1, [&](std::size_t i) { refine(sorted[i]); });
+  return sorted.begin() + static_cast<std::ptrdiff_t>(count);
+}
+
 /// The best of the finalists after ICP. Those that ICP carries onto an instance that is found
 /// already leave the pool.
 std::optional<Candidate> ObjectSearch::best_finalist() {
   while (!pool_.empty()) {
-    const std::size_t count = std::min(kFinalists, pool_.size());
-    Candidates finalists(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
-    graph::parallel_for(count, 1, [&](std::size_t i) { refine(finalists[i]); });
-    sort_by_rank(finalists.begin(), finalists.end());
-    for (const Candidate& candidate : finalists)
-      if (is_clear(center_of(candidate))) return best_alike(candidate);
-    pool_.erase(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(count));
+    const Candidates::iterator end = refine_best(pool_);
+    sort_by_rank(pool_.begin(), end);
+    for (auto candidate = pool_.begin(); candidate != end; ++candidate)
+      if (is_clear(center_of(*candidate))) return best_alike(*candidate);
+    pool_.erase(pool_.begin(), end);
   }
   return std::nullopt;
 }
@@ -119,23 +128,25 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
 Candidate ObjectSearch::best_alike(const Candidate& candidate) const {
   Candidates alike(model_.near_symmetries.motions.size(), candidate);
   graph::parallel_for(alike.size(), 1, [&](std::size_t i) {
+    alike[i].is_refined = false;
     alike[i].T_scene_model = candidate.T_scene_model * model_.near_symmetries.motions[i];
     alike[i].fit = measure(alike[i].T_scene_model, kLook);
     set_score(alike[i]);
   });
+  alike.push_back(candidate);
   sort_by_rank(alike.begin(), alike.end());
-  alike.resize(std::min(kFinalists, alike.size()));
-  graph::parallel_for(alike.size(), 1, [&](std::size_t i) { refine(alike[i]); });
+  alike.erase(refine_best(alike), alike.end());
   Candidate best = candidate;
   for (const Candidate& other : alike)
     if (other.rank > best.rank && is_clear(center_of(other))) best = other;
   return best;
 }
 
-/// ICP, kept where it keeps the support that the mode had.
+/// ICP, kept where it keeps the support that the mode had. Done once for a mode: what is taken out
+/// of the scan later moves no pose.
 void ObjectSearch::refine(Candidate& candidate) const {
   candidate.fit = measure(candidate.T_scene_model, 0);
-  if (params_.refine) {
+  if (params_.refine && !candidate.is_refined) {
     const Eigen::Isometry3d T_refined =
         icp(model_.cloud, scan_.surface, candidate.T_scene_model,
             {params_.icp_iterations, params_.icp_distance, params_.tolerance});
@@ -146,6 +157,7 @@ void ObjectSearch::refine(Candidate& candidate) const {
       candidate.fit = refined;
     }
   }
+  candidate.is_refined = true;
   set_score(candidate);
 }
 

@@ -41,6 +41,7 @@ struct Candidate {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
   double score = 0;
+  bool is_refined = false;  ///< whether the pose is after ICP
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
 };
 
@@ -75,6 +76,7 @@ class ObjectSearch {
   void judge_again();
   std::optional<Candidate> best_finalist();
   void refine(Candidate& candidate) const;
+  std::vector<Candidate>::iterator refine_best(std::vector<Candidate>& sorted) const;
   Candidate best_alike(const Candidate& candidate) const;
   void set_score(Candidate& candidate) const;
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const;
