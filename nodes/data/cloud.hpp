@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,7 +27,9 @@ struct Cloud {
                         ///< sensor; models: outward. An unusable normal is (0, 0, 0).
   FaceMatrix faces;     ///< m x 3 indices into points, or 0 x 3 for a raw cloud
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< sensor origin [m] (scans only)
-  std::size_t dropped = 0;  ///< points left out so far: not finite, or without a usable normal
+  Eigen::AlignedBox2f image;  ///< of a depth image: what its pixels span in x / z and y / z, seen
+                              ///< from the viewpoint; empty where that is not known
+  std::size_t dropped = 0;    ///< points left out so far: not finite, or without a usable normal
 };
 
 }  // namespace posevote

@@ -41,6 +41,14 @@ std::vector<float> depth_table(const Camera& camera, const DepthRange& range) {
   return depths;
 }
 
+Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const DepthImage& image) {
+  const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
+  const Eigen::Vector2d low((-0.5 - camera.cx) / camera.fx, (-0.5 - camera.cy) / camera.fy);
+  const Eigen::Vector2d high((width - 0.5 - camera.cx) / camera.fx,
+                             (height - 0.5 - camera.cy) / camera.fy);
+  return {low.cast<float>(), high.cast<float>()};
+}
+
 }  // namespace
 
 Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
@@ -58,6 +66,7 @@ Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const 
     cloud.points.row(count++) << static_cast<float>((u - camera.cx) * z / camera.fx),
         static_cast<float>((v - camera.cy) * z / camera.fy), z;
   }
+  cloud.image = pixel_bounds(camera, image);
   if (count == 0)
     throw std::runtime_error("none of the image's " + std::to_string(image.values.size()) +
                              " pixels holds a depth within the limits (0 is no measurement)");

@@ -92,10 +92,14 @@ std::vector<Rated> rate_rotations(const Cloud& cloud, const Eigen::Vector3d& cen
 class Judge {
  public:
   Judge(const Cloud& cloud, float fine)
-      : sample_(every(cloud, kSample)), surface_(cloud, false, fine), fine_(fine) {}
+      : sample_(every(cloud, kSample)),
+        surface_(cloud, false, fine),
+        near_(cloud.points, fine),
+        shown_(static_cast<std::size_t>(cloud.points.rows()), 0),
+        fine_(fine) {}
 
   Rated refine(const Rated& start, float near) const {
-    const Isometry3d motion = icp(sample_, surface_, start.motion, {30, near, fine_});
+    const Isometry3d motion = icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
     return {motion, overlap(motion)};
   }
   double overlap(const Isometry3d& motion) const {
@@ -105,12 +109,23 @@ class Judge {
   bool same(const Isometry3d& a, const Isometry3d& b) const {
     const Isometry3d between = a.inverse() * b;
     return Eigen::AngleAxisd(between.linear()).angle() < kSameMotion ||
-           overlap(between) >= kSymmetric;
+           share_on_surface(between) >= kSymmetric;
   }
 
  private:
+  /// Normals aside, which are anyone's at an edge.
+  double share_on_surface(const Isometry3d& motion) const {
+    const Eigen::Isometry3f T = motion.cast<float>();
+    int on = 0;
+    for (Eigen::Index i = 0; i < sample_.points.rows(); ++i)
+      on += near_.nearest(posed_point(sample_, i, T).point, fine_, shown_).has_value();
+    return on / static_cast<double>(sample_.points.rows());
+  }
+
   Cloud sample_;
   ScanSurface surface_;
+  Neighbourhoods near_;
+  std::vector<char> shown_;  // none of the points is hidden
   float fine_;
 };
 

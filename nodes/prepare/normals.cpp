@@ -55,6 +55,7 @@ Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
   out.points = cloud.points(kept, Eigen::all);
   out.normals = normals(kept, Eigen::all);
   out.viewpoint = cloud.viewpoint;
+  out.image = cloud.image;
   out.dropped = cloud.dropped + static_cast<std::size_t>(cloud.points.rows()) - kept.size();
   return out;
 }

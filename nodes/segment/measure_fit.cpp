@@ -32,7 +32,7 @@ Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& v
     return {Verdict::kSupported,
             static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
   const float measured = view.measured_range(p.point);
-  if (measured == 0) return {Verdict::kUnseen};
+  if (measured == 0) return {view.is_outside(p.point) ? Verdict::kHidden : Verdict::kUnseen};
   const float before = measured - (p.point - viewpoint).norm();
   if (before > 2 * tolerance) return {Verdict::kContradicted};
   return {before < -2 * tolerance ? Verdict::kHidden : Verdict::kMismatched};
@@ -106,10 +106,11 @@ Fit measure_fit(const Cloud& model, const ModelRim& rim, const ScanSurface& scan
 
 // score = agreement x evidence x continuity.
 //
-// Agreement is the share of supporters among the points that take a side. Hidden points take none,
-// so a true pose of which a tenth is visible still agrees. A point that the sensor saw through
-// speaks fully against the pose; one that met another surface or no measurement counts half,
-// because noise, clutter in contact and drop-outs do that to true poses too.
+// Agreement is the share of supporters among the points that take a side. Points that are hidden,
+// or beside the image, take none, so a true pose of which a tenth is visible still agrees. A point
+// that the sensor saw through speaks fully against the pose; one that met another surface or no
+// measurement counts half, because noise, clutter in contact and drop-outs do that to true poses
+// too.
 //
 // Agreement alone would let a body sunk into a table score high: its cap is supported, the rest is
 // hidden. Evidence is therefore what the support could only show by fitting: the supported share of

@@ -7,7 +7,8 @@
 //   mismatched    a surface was measured there, but not this one: other orientation, or already
 //                 explained by another detection
 //   unseen        nothing was measured in that direction
-//   hidden        a measured surface stands before the point: says nothing
+//   hidden        a measured surface stands before the point, or it is beside the sensor's image:
+//                 says nothing
 //
 // And where the model's surface ends beside a supported point, the scan's may end, too, or go on
 // (overhang). One nearest-neighbour search a point, and one for each end.

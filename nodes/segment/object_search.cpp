@@ -17,7 +17,7 @@ constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal a
 constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
 constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
-constexpr double kHopeless = 0.5;        // x the best rank: ICP does not double a rank
+constexpr double kHopeless = 0.25;       // x the best rank: ICP seldom raises one fourfold
 
 // A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
 // votes and fit are evidence of their own, but true instances differ much in how much of them is

@@ -32,7 +32,8 @@ float median_range(const std::vector<Eigen::Vector3f>& image_points) {
 
 }  // namespace
 
-RangeView::RangeView(const Cloud& scan, float resolution) : viewpoint_(scan.viewpoint) {
+RangeView::RangeView(const Cloud& scan, float resolution)
+    : viewpoint_(scan.viewpoint), image_(scan.image) {
   if (!(resolution > 0) || !find_axis(scan, resolution)) return;
   std::vector<Eigen::Vector3f> image_points;
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
@@ -91,6 +92,12 @@ void RangeView::splat(const Eigen::Vector3f& image_point, float half_width) {
       float& range = range_[cell_at(x, y)];
       if (range == 0 || image_point.z() < range) range = image_point.z();
     }
+}
+
+bool RangeView::is_outside(const Eigen::Vector3f& point) const {
+  if (image_.isEmpty()) return false;
+  const Eigen::Vector3f ray = point - viewpoint_;
+  return !(ray.z() > 0) || !image_.contains(ray.head<2>() / ray.z());
 }
 
 float RangeView::measured_range(const Eigen::Vector3f& point) const {

@@ -30,6 +30,9 @@ class RangeView {
   /// where nothing was measured.
   float measured_range(const Eigen::Vector3f& point) const;
 
+  /// Whether `point` lies beside the sensor's image, where that is known: nobody looked there.
+  bool is_outside(const Eigen::Vector3f& point) const;
+
  private:
   bool find_axis(const Cloud& scan, float resolution);
   void lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell);
@@ -44,6 +47,7 @@ class RangeView {
            static_cast<std::size_t>(x);
   }
 
+  Eigen::AlignedBox2f image_;
   float cell_ = 0;
   int width_ = 0, height_ = 0;
   std::vector<float> range_;

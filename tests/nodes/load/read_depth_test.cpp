@@ -53,6 +53,8 @@ TEST_CASE("Depth image: pixels become points right, down and forward", "[load][d
         Eigen::RowVector3f(0.5F * -1.5F / 500, 0.5F * 0.5F / 400, 0.5F)));
     CHECK(cloud.points(3, 2) == Approx(0.0258));  // 258 = 0x0102: bytes in the right order
     CHECK(cloud.viewpoint.isZero());
+    CHECK(cloud.image.min().isApprox(Eigen::Vector2f(-2.0F / 500, -1.0F / 400)));
+    CHECK(cloud.image.max().isApprox(Eigen::Vector2f(2.0F / 500, 1.0F / 400)));
     CHECK(cloud.dropped == 0);
     CHECK(is_valid(cloud));
   }

@@ -51,6 +51,32 @@ TEST_CASE("a body where nothing was measured is unseen", "[segment]") {
   CHECK(fit_score(fit) == 0);
 }
 
+TEST_CASE("beside the image nobody looked, if it is known where the image ends", "[segment]") {
+  Cloud scan = scan_of({kBody}, false);
+  const Eigen::Isometry3d beside = pose(0.5, 0, 0.8, 0.7);
+  const Fit unknown = fit_of(bumpy_model(1)->cloud, scan, beside);
+  CHECK(unknown.unseen == unknown.facing);
+  scan.image = Eigen::AlignedBox2f(Eigen::Vector2f(-0.3F, -0.3F), Eigen::Vector2f(0.3F, 0.3F));
+  const Fit known = fit_of(bumpy_model(1)->cloud, scan, beside);
+  CHECK(known.facing == unknown.facing);
+  CHECK(known.hidden == known.facing);
+}
+
+TEST_CASE("a body cut off by the image's border agrees with the scan", "[segment]") {
+  const Cloud whole = scan_of({kBody}, false);
+  std::vector<Eigen::Index> left;
+  for (Eigen::Index i = 0; i < whole.points.rows(); ++i)
+    if (whole.points(i, 0) < 0) left.push_back(i);
+  Cloud scan;
+  scan.points = whole.points(left, Eigen::all);
+  scan.normals = whole.normals(left, Eigen::all);
+  const double unknown = fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
+  scan.image = Eigen::AlignedBox2f(Eigen::Vector2f(-0.3F, -0.3F), Eigen::Vector2f(0, 0.3F));
+  const double known = fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
+  CHECK(unknown < 0.75);
+  CHECK(known > 0.85);
+}
+
 TEST_CASE("a surface that looks elsewhere supports nothing", "[segment]") {
   Cloud scan = scan_of({kBody});
   for (Eigen::Index i = 0; i < scan.normals.rows(); ++i)
