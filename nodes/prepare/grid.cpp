@@ -2,7 +2,8 @@
 #include "nodes/prepare/grid.hpp"
 
 #include <bit>
-#include <numeric>
+
+#include "nodes/prepare/radix_sort.hpp"
 
 namespace posevote {
 namespace {
@@ -21,11 +22,6 @@ struct Entry {
   float x;
   std::uint32_t index;
 };
-
-bool operator<(const Entry& a, const Entry& b) {
-  if (a.key != b.key) return a.key < b.key;
-  return a.x != b.x ? a.x < b.x : a.index < b.index;
-}
 
 }  // namespace
 
@@ -53,7 +49,9 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
   for (const std::uint32_t i : finite)
     entries.push_back(
         {key_of(row(points(i, 1), low.y()), row(points(i, 2), low.z())), points(i, 0), i});
-  std::sort(entries.begin(), entries.end());
+  radix_sort(entries, [](const Entry& one) { return ordered_bits(one.x); });
+  radix_sort(entries, [](const Entry& one) { return static_cast<std::uint32_t>(one.key); });
+  radix_sort(entries, [](const Entry& one) { return static_cast<std::uint32_t>(one.key >> 32); });
 
   std::size_t rods = 0;
   for (std::size_t i = 0; i < entries.size(); ++i)

@@ -36,6 +36,16 @@ class PointGrid {
   /// that depends on the points and the query alone.
   template <class Visit>
   void for_each_within(const Eigen::Vector3f& center, float radius, const Visit& visit) const {
+    for_each_offset_within(center, radius,
+                           [&visit](std::uint32_t index, float squared, float, float, float) {
+                             visit(index, squared);
+                           });
+  }
+
+  /// The same, calling visit(index, squared distance, dx, dy, dz): the offset from `center`.
+  template <class Visit>
+  void for_each_offset_within(const Eigen::Vector3f& center, float radius,
+                              const Visit& visit) const {
     if (x_.empty() || !center.allFinite() || !(radius >= 0)) return;
     // The windows are a trifle wider than the ball: only the distance decides who is in.
     const double reach = 1.000001 * radius;
@@ -82,7 +92,7 @@ class PointGrid {
       const float dy = y_[i] - center.y();
       const float dz = z_[i] - center.z();
       const float squared = dx * dx + dy * dy + dz * dz;
-      if (squared <= squared_radius) visit(index_[i], squared);
+      if (squared <= squared_radius) visit(index_[i], squared, dx, dy, dz);
     }
   }
 

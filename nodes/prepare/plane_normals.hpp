@@ -40,6 +40,7 @@ class PlaneFitter {
   float radius_;
   Voxels voxels_;
   PointMatrix centroids_;
+  std::vector<float> sizes_;  // points in each voxel
   PointGrid grid_;
 };
 

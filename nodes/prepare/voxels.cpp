@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/prepare/voxels.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
+
+#include "nodes/prepare/radix_sort.hpp"
 
 namespace posevote {
 namespace {
@@ -15,9 +15,6 @@ struct Keyed {
   std::uint32_t index;
 
   bool same_voxel(const Keyed& other) const { return x == other.x && y == other.y && z == other.z; }
-  bool operator<(const Keyed& other) const {
-    return std::tie(z, y, x, index) < std::tie(other.z, other.y, other.x, other.index);
-  }
 };
 
 [[noreturn]] void throw_too_large(double extent, double leaf) {
@@ -62,7 +59,9 @@ Eigen::RowVector3d Voxels::centroid(const PointMatrix& points, std::size_t voxel
 
 Voxels group_by_voxel(const PointMatrix& points, float leaf) {
   std::vector<Keyed> keyed = keyed_points(points, leaf);
-  std::sort(keyed.begin(), keyed.end());
+  radix_sort(keyed, [](const Keyed& one) { return one.x; });
+  radix_sort(keyed, [](const Keyed& one) { return one.y; });
+  radix_sort(keyed, [](const Keyed& one) { return one.z; });
   Voxels voxels;
   voxels.order.reserve(keyed.size());
   for (std::size_t i = 0; i < keyed.size(); ++i) {
