@@ -41,7 +41,8 @@ double median(Samples samples) {
 
 /// Writers would measure the disk.
 std::vector<std::string> without_writers(const BenchCommand& command, const Method& method) {
-  std::vector<std::string> sets = command.set;
+  std::vector<std::string> sets = method.set;
+  sets.insert(sets.end(), command.set.begin(), command.set.end());
   const graph::Plan plan = load_configuration(command.config, sets, {}, method.pipeline).scenes;
   for (const graph::PlannedNode& node : plan.nodes)
     for (const graph::ParamSpec& param : node.spec->params)

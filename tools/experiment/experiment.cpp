@@ -11,11 +11,21 @@
 namespace posevote {
 namespace {
 
-const std::vector<Method> kMethods = {{"posevote", "recognize"},
-                                      {"ransac", "ransac"},
-                                      {"hough3d", "hough3d"},
-                                      {"geometric_consistency", "geometric_consistency"},
-                                      {"opencv_ppf", "opencv_ppf"}};
+const std::vector<Method> kMethods = {{"posevote", "recognize", {}},
+                                      {"ransac", "ransac", {}},
+                                      {"hough3d", "hough3d", {}},
+                                      {"geometric_consistency", "geometric_consistency", {}},
+                                      {"opencv_ppf", "opencv_ppf", {}}};
+
+/// As PCL's tutorials chain its parts.
+const std::vector<std::string> kPclFeatures = {"describe_models.node=describe_shot",
+                                               "assemble_library.search=kd_tree"};
+
+/// Not among those that are taken where none is named.
+const std::vector<Method> kPeers = {
+    {"pcl_hough3d", "hough3d", kPclFeatures},
+    {"pcl_geometric_consistency", "geometric_consistency", kPclFeatures},
+    {"textbook_density", "recognize", {"estimate_density.node=textbook_density"}}};
 
 std::vector<Method> methods_of_this_build() {
   std::vector<Method> methods = kMethods;
@@ -29,6 +39,7 @@ std::vector<Method> methods_of_this_build() {
 std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
   std::vector<Method> known = methods_of_this_build();
   if (wanted.empty()) return known;
+  known.insert(known.end(), kPeers.begin(), kPeers.end());
   std::vector<Method> methods;
   for (const std::string& name : wanted) {
     const auto found = std::find_if(known.begin(), known.end(),

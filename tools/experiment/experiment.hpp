@@ -20,14 +20,16 @@ struct ExperimentCommand {
   bool quick = false;
 };
 
-/// A way from correspondences to poses: the wiring that stands for it.
+/// A way from scans to poses: the wiring that stands for it.
 struct Method {
-  std::string name;      ///< in tables and folders
-  std::string pipeline;  ///< in pipelines/
+  std::string name;              ///< in tables and folders
+  std::string pipeline;          ///< in pipelines/
+  std::vector<std::string> set;  ///< node.param=value
 };
 
-/// Ours first, then the rivals that this build has. Throws std::invalid_argument for a name in
-/// `wanted` that there is not.
+/// Ours first, then the rivals that this build has, on the same correspondences; by name in
+/// `wanted` also those that differ before or after: PCL's chains on SHOT descriptors, and ours with
+/// the paper's way to the densities. Throws std::invalid_argument for a name that there is not.
 std::vector<Method> find_methods(const std::vector<std::string>& wanted);
 
 /// Rows of plain values, all with the same keys, as text for spreadsheets.

@@ -106,6 +106,7 @@ int run_method(const Method& method, const Subject& subject, const fs::path& sca
   RunCommand run;
   run.config = "sensitivity";
   run.pipeline = method.pipeline;
+  run.set = method.set;
   run.models = {subject.file.string()};
   run.scenes = {scans.string()};
   run.out = (out / method.name).string();
