@@ -2,92 +2,15 @@
 // Methods take turns, so that a machine that slows down slows all of them; figures are medians.
 #include "tools/bench/bench.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "graph/runner.hpp"
-#include "tools/experiment/experiment.hpp"
-#include "tools/inputs.hpp"
-#include "tools/library.hpp"
+#include "tools/bench/contestant.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
-
-using Samples = std::vector<double>;
-
-constexpr const char* kLoading = "load_scene";
-
-/// One method, ready to run, and what was measured of it.
-struct Contestant {
-  Method method;
-  Configuration configuration;
-  std::map<std::string, graph::Value> constants;
-  Samples training, online;  ///< [s]; online: a scan, loading aside
-  std::vector<Samples> stages;
-};
-
-double median(Samples samples) {
-  if (samples.empty()) return 0;
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  std::nth_element(samples.begin(), middle, samples.end());
-  return *middle;
-}
-
-/// Writers would measure the disk.
-std::vector<std::string> without_writers(const BenchCommand& command, const Method& method) {
-  std::vector<std::string> sets = method.set;
-  sets.insert(sets.end(), command.set.begin(), command.set.end());
-  const graph::Plan plan = load_configuration(command.config, sets, {}, method.pipeline).scenes;
-  for (const graph::PlannedNode& node : plan.nodes)
-    for (const graph::ParamSpec& param : node.spec->params)
-      if (node.output < 0 && param.name == "every") sets.push_back(node.name + ".every=0");
-  return sets;
-}
-
-void train_once(Contestant& contestant, const ModelFiles& models) {
-  const auto begin = std::chrono::steady_clock::now();
-  const graph::Value library = train(contestant.configuration, models);
-  const graph::Plan& plan = contestant.configuration.models;
-  contestant.constants = graph::fold_constants(
-      contestant.configuration.scenes, {{plan.streams[std::size_t(plan.result)].name, library}});
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  contestant.training.push_back(seconds.count());
-}
-
-void run_once(Contestant& contestant, const SceneEntry& scene) {
-  const graph::Plan& plan = contestant.configuration.scenes;
-  const graph::FrameResult result = graph::run_one(
-      plan, contestant.constants,
-      {{scene.number, scene.name, {}, 0}, {std::make_shared<const SceneFile>(scene.file)}});
-  if (result.failure)
-    throw std::runtime_error(scene.file.path.string() + ": " + result.failure->node + ": " +
-                             result.failure->what);
-  double begin = 0, end = 0;
-  bool first = true;
-  for (std::size_t i = 0; i < result.spans.size(); ++i) {
-    const graph::Span& span = result.spans[i];
-    if (!span.ran()) continue;
-    contestant.stages[i].push_back(span.seconds());
-    if (plan.nodes[i].name == kLoading) continue;
-    begin = first ? span.begin : std::min(begin, span.begin);
-    end = std::max(end, span.end);
-    first = false;
-  }
-  contestant.online.push_back((end - begin) * 1e-6);
-}
-
-std::size_t peak_memory_mb() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stoul(line.substr(6)) / 1024;
-  return 0;
-}
 
 nlohmann::ordered_json to_json(const Contestant& contestant) {
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
@@ -128,18 +51,17 @@ int bench_command(const BenchCommand& command) {
     std::fputs(compare_benches(command.compare.at(0), command.compare.at(1)).c_str(), stdout);
     return 0;
   }
+  if (command.growth) {
+    bench_growth(command);
+    return 0;
+  }
   if (command.models.empty() || command.scenes.empty())
     throw std::invalid_argument("expected --models FILE... and --scenes FILE...");
   const ModelFiles models = list_models(command.models);
   const std::vector<SceneEntry> scenes = list_scenes(command.scenes);
   std::vector<Contestant> contestants;
-  for (const Method& method : find_methods(command.methods)) {
-    Contestant& contestant = contestants.emplace_back();
-    contestant.method = method;
-    contestant.configuration =
-        load_configuration(command.config, without_writers(command, method), {}, method.pipeline);
-    contestant.stages.resize(contestant.configuration.scenes.nodes.size());
-  }
+  for (const Method& method : find_methods(command.methods))
+    contestants.push_back(make_contestant(command, method));
   for (int turn = 0; turn < command.repeat; ++turn) {
     std::fprintf(stderr, "turn %d of %d\n", turn + 1, command.repeat);
     for (Contestant& contestant : contestants) {

@@ -15,8 +15,12 @@ struct BenchCommand {
   std::vector<std::string> compare;  ///< two JSON files: nothing is run
   std::size_t threads = 0;
   int repeat = 5;
+  bool growth = false;  ///< how time and memory grow, on input of its own
 };
 int bench_command(const BenchCommand& command);
+
+/// Prints how time and memory grow with the input and writes OUT.{json,csv,svg}.
+void bench_growth(const BenchCommand& command);
 
 /// The table of two files that `bench --out` wrote, stage by stage with the ratio. Throws
 /// std::invalid_argument naming a file that is no such thing.
