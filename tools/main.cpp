@@ -174,7 +174,7 @@ void add_bench(CLI::App& app, BenchCommand& bench) {
   CLI::App* command = app.add_subcommand("bench", "Time every stage, and rivals in the same run");
   command->footer(
       "Examples:\n  posevote bench uwa --models models/*.ply --scenes rs1.ply --out new.json\n"
-      "  posevote bench --growth --repeat 3 --out growth\n"
+      "  posevote bench --growth all --repeat 3 --out growth\n"
       "  posevote bench --compare old.json new.json");
   command->add_option("config", bench.config, "A file, or a name from configs/")
       ->capture_default_str();
@@ -188,9 +188,12 @@ void add_bench(CLI::App& app, BenchCommand& bench) {
       ->capture_default_str();
   command->add_option("--threads", bench.threads, "Threads; 0: all cores")->capture_default_str();
   command->add_option("--out", bench.out, "Also write the figures as JSON")->type_name("FILE");
-  command->add_flag("--growth", bench.growth,
-                    "How time and memory grow with points, models, correspondences, rotations and "
-                    "threads, on scans that it makes; --out names the files without their ending");
+  command
+      ->add_option("--growth", bench.growth,
+                   "How time and memory grow with points, models, correspondences, rotations, "
+                   "threads, or all of them, on scans that it makes; --out names the files "
+                   "without their ending")
+      ->type_name("WHAT");
   command->add_option("--compare", bench.compare, "Run nothing; compare two files of --out")
       ->expected(2)
       ->type_name("OLD NEW");

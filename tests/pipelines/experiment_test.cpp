@@ -104,3 +104,21 @@ TEST_CASE("bench times every stage and writes what it measured", "[bench]") {
   CHECK(run_posevote(folder, "bench --compare " + json + " " + json).status == 0);
   CHECK(run_posevote(folder, "bench demo --models " + (folder / "d/models").string()).status == 2);
 }
+
+TEST_CASE("bench --growth measures one quantity at several sizes", "[bench]") {
+  const TemporaryFolder folder;
+  const CommandResult bench =
+      run_posevote(folder, "bench --growth rotations --repeat 1 --out " + (folder / "g").string());
+  INFO(bench.output);
+  REQUIRE(bench.status == 0);
+  const nlohmann::json rows = read_json(folder / "g.json");
+  REQUIRE(rows.size() == 4);
+  for (const nlohmann::json& row : rows) {
+    CHECK(row["grows"] == "rotations");
+    CHECK(row["seconds"].get<double>() > 0);
+    CHECK(row["peak_mb"].get<double>() > 10);
+    CHECK(std::abs(row["exponent"].get<double>()) < 3);
+  }
+  CHECK(read_text(folder / "g.svg").find("exponent") != std::string::npos);
+  CHECK(run_posevote(folder, "bench --growth weight").status == 2);
+}

@@ -51,7 +51,7 @@ int bench_command(const BenchCommand& command) {
     std::fputs(compare_benches(command.compare.at(0), command.compare.at(1)).c_str(), stdout);
     return 0;
   }
-  if (command.growth) {
+  if (!command.growth.empty()) {
     bench_growth(command);
     return 0;
   }

@@ -15,7 +15,7 @@ struct BenchCommand {
   std::vector<std::string> compare;  ///< two JSON files: nothing is run
   std::size_t threads = 0;
   int repeat = 5;
-  bool growth = false;  ///< how time and memory grow, on input of its own
+  std::vector<std::string> growth;  ///< what grows, on input of its own; empty: nothing
 };
 int bench_command(const BenchCommand& command);
 

@@ -14,6 +14,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
 
 #include "nodes/write/write_ply.hpp"
 #include "tools/bench/contestant.hpp"
@@ -107,6 +108,55 @@ struct Load {
   std::size_t threads = 0;
 };
 
+/// What grows, and how it is put into a load.
+struct Quantity {
+  std::string name;
+  std::vector<std::size_t> values;
+  std::function<void(Load&, std::size_t)> put;
+};
+
+std::vector<std::size_t> thread_counts() {
+  std::vector<std::size_t> counts;
+  for (std::size_t n = 1; n <= static_cast<std::size_t>(tbb::info::default_concurrency()); n *= 2)
+    counts.push_back(n);
+  return counts;
+}
+
+std::vector<Quantity> quantities() {
+  return {
+      {"points",
+       {10000, 40000, 90000, 250000, 490000, 1000000},
+       [](Load& load, std::size_t n) {
+         load.points = n;
+         load.set = {"pick_scene_features.max_points=0"};
+       }},
+      {"models", {1, 2, 4, 8, 16, 30}, [](Load& load, std::size_t n) { load.models = n; }},
+      {"correspondences",
+       {1000, 2000, 4000, 8000},
+       [](Load& load, std::size_t n) {
+         load.set = {"pick_scene_features.spacing=0.5", "drop_flat.min_relief=0",
+                     "pick_scene_features.max_points=" + std::to_string(n)};
+       }},
+      {"rotations",
+       {15, 30, 60, 120},
+       [](Load& load, std::size_t n) { load.set = {"cast_votes.rotations=" + std::to_string(n)}; }},
+      {"threads", thread_counts(), [](Load& load, std::size_t n) { load.threads = n; }}};
+}
+
+/// Throws std::invalid_argument where something else is wanted than there is.
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) {
+  for (const std::string& one : wanted) {
+    if (one == "all" || one == name) return true;
+    const std::vector<Quantity> known = quantities();
+    if (std::none_of(known.begin(), known.end(),
+                     [&](const Quantity& quantity) { return quantity.name == one; }))
+      throw std::invalid_argument("--growth " + one +
+                                  ": expected all, points, models, correspondences, rotations or "
+                                  "threads");
+  }
+  return false;
+}
+
 class Bench {
  public:
   explicit Bench(const BenchCommand& command)
@@ -115,16 +165,14 @@ class Bench {
     fs::create_directories(folder_);
   }
 
-  template <class Numbers>
-  Curve grow(const std::string& name, const Numbers& numbers,
-             const std::function<void(Load&, std::size_t)>& put) const {
-    Curve curve{name, {}};
-    for (const std::size_t number : numbers) {
+  Curve grow(const Quantity& quantity) const {
+    Curve curve{quantity.name, {}};
+    for (const std::size_t number : quantity.values) {
       Load load;
-      put(load, number);
+      quantity.put(load, number);
       curve.places.push_back(measure(load, static_cast<double>(number)));
       const Place& last = curve.places.back();
-      std::printf("%-18s %9.0f %9.3f s %7.0f MB\n", name.c_str(), last.x, last.seconds,
+      std::printf("%-18s %9.0f %9.3f s %7.0f MB\n", curve.name.c_str(), last.x, last.seconds,
                   last.megabytes);
       std::fflush(stdout);
     }
@@ -183,40 +231,20 @@ nlohmann::ordered_json to_json(const std::vector<Curve>& curves) {
 }  // namespace
 
 void bench_growth(const BenchCommand& command) {
-  using Numbers = std::vector<std::size_t>;
   const Bench bench(command);
-  const std::size_t cores = static_cast<std::size_t>(tbb::info::default_concurrency());
-  Numbers threads;
-  for (std::size_t n = 1; n <= cores; n *= 2) threads.push_back(n);
   std::vector<Curve> curves;
-  curves.push_back(bench.grow("scan points", Numbers{10000, 40000, 90000, 250000, 490000, 1000000},
-                              [](Load& load, std::size_t n) {
-                                load.points = n;
-                                load.set = {"pick_scene_features.max_points=0"};
-                              }));
-  curves.push_back(bench.grow("models", Numbers{1, 2, 4, 8, 16, 30},
-                              [](Load& load, std::size_t n) { load.models = n; }));
-  curves.push_back(
-      bench.grow("correspondences", Numbers{1000, 2000, 4000, 8000}, [](Load& load, std::size_t n) {
-        load.set = {"pick_scene_features.spacing=0.5", "drop_flat.min_relief=0",
-                    "pick_scene_features.max_points=" + std::to_string(n)};
-      }));
-  curves.push_back(bench.grow(
-      "rotations N_r", Numbers{15, 30, 60, 120},
-      [](Load& load, std::size_t n) { load.set = {"cast_votes.rotations=" + std::to_string(n)}; }));
-  curves.push_back(
-      bench.grow("threads", threads, [](Load& load, std::size_t n) { load.threads = n; }));
-  std::printf("\n%-18s %14s %14s\n", "", "time exponent", "memory exponent");
+  for (const Quantity& quantity : quantities())
+    if (is_wanted(command.growth, quantity.name)) curves.push_back(bench.grow(quantity));
+  std::printf("\n%-18s %14s %16s\n", "", "time exponent", "memory exponent");
   std::vector<plot::Chart> charts;
   for (const Curve& curve : curves) {
-    if (curve.places.size() > 1)
-      std::printf("%-18s %14.2f %14.2f\n", curve.name.c_str(), curve.exponent(&Place::seconds),
-                  curve.exponent(&Place::megabytes));
+    std::printf("%-18s %14.2f %16.2f\n", curve.name.c_str(), curve.exponent(&Place::seconds),
+                curve.exponent(&Place::megabytes));
     charts.push_back(chart_of(curve));
   }
   const nlohmann::ordered_json rows = to_json(curves);
-  const fs::path base = command.out.empty() ? "out/growth" : command.out;
-  write_report(base, rows.dump(1) + "\n", to_csv(rows), plot::to_svg(charts));
+  write_report(command.out.empty() ? "out/growth" : command.out, rows.dump(1) + "\n", to_csv(rows),
+               plot::to_svg(charts));
 }
 
 }  // namespace posevote
