@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ struct NearSymmetries {
 
 class DescriptorIndex;  // nodes/match/descriptor_index.hpp
 
+/// Where a model's surfaces end (find_outline): a bit for each direction around a point.
+struct Outline {
+  float reach = 0;                 ///< how far ahead was looked [m]
+  std::vector<std::uint8_t> ends;  ///< per point of the model's cloud
+};
+
 /// One object, preprocessed and described.
 struct Model {
   std::string name;
@@ -28,6 +35,7 @@ struct Model {
       Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
   float diagonal = 0;           ///< of that bounding box [m]
   NearSymmetries near_symmetries;
+  Outline outline;
 };
 
 /// All models of a run. Matching searches one index that holds every model's descriptors.

@@ -10,7 +10,7 @@
 // Fails where two models have the same obj_id, or descriptors differ in length. Time: O(size).
 //
 //   assemble_library: {in: [model_files, model_meshes, model_clouds, model_features,
-//                           near_symmetries, scale], out: library, search: exact}
+//                           near_symmetries, outlines, scale], out: library, search: exact}
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -26,7 +26,8 @@ namespace {
 using Params = IndexOptions;
 
 Model assemble_model(const ModelFile& file, const Cloud& mesh, const Cloud& cloud,
-                     const FeatureSet& features, const NearSymmetries& near_symmetries) {
+                     const FeatureSet& features, const NearSymmetries& near_symmetries,
+                     const Outline& outline) {
   if (mesh.points.rows() == 0) throw std::runtime_error(file.path.string() + ": has no points");
   Model model;
   model.name = file.name;
@@ -38,6 +39,7 @@ Model assemble_model(const ModelFile& file, const Cloud& mesh, const Cloud& clou
   model.center = (0.5F * (low + high)).transpose();
   model.diagonal = (high - low).norm();
   model.near_symmetries = near_symmetries;
+  model.outline = outline;
   return model;
 }
 
@@ -53,22 +55,23 @@ void require_distinct_ids(const ModelLibrary& library) {
 
 ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Cloud>& meshes,
                               const PerObject<Cloud>& clouds, const PerObject<FeatureSet>& features,
-                              const PerObject<NearSymmetries>& near_symmetries, const Scale& scale,
+                              const PerObject<NearSymmetries>& near_symmetries,
+                              const PerObject<Outline>& outlines, const Scale& scale,
                               const Params& params) {
   const std::size_t count = files.size();
   if (count == 0) throw std::runtime_error("there are no models");
   if (meshes.size() != count || clouds.size() != count || features.size() != count ||
-      near_symmetries.size() != count)
-    throw std::runtime_error(std::to_string(count) + " model files, but " +
-                             std::to_string(meshes.size()) + " meshes, " +
-                             std::to_string(clouds.size()) + " clouds, " +
-                             std::to_string(features.size()) + " feature sets and " +
-                             std::to_string(near_symmetries.size()) + " lists of near symmetries");
+      near_symmetries.size() != count || outlines.size() != count)
+    throw std::runtime_error(
+        std::to_string(count) + " model files, but " + std::to_string(meshes.size()) + " meshes, " +
+        std::to_string(clouds.size()) + " clouds, " + std::to_string(features.size()) +
+        " feature sets, " + std::to_string(near_symmetries.size()) +
+        " lists of near symmetries and " + std::to_string(outlines.size()) + " outlines");
   ModelLibrary library;
   library.scale = scale;
   for (std::size_t i = 0; i < count; ++i)
-    library.models.push_back(std::make_shared<const Model>(
-        assemble_model(files[i], meshes[i], clouds[i], features[i], near_symmetries[i])));
+    library.models.push_back(std::make_shared<const Model>(assemble_model(
+        files[i], meshes[i], clouds[i], features[i], near_symmetries[i], outlines[i])));
   std::stable_sort(library.models.begin(), library.models.end(),
                    [](const auto& a, const auto& b) { return a->obj_id < b->obj_id; });
   require_distinct_ids(library);
@@ -84,6 +87,7 @@ const auto registered =
         .input("model_clouds")
         .input("model_features")
         .input("near_symmetries")
+        .input("outlines")
         .input("scale")
         .output("library")
         .param("search", &Params::search, "",

@@ -66,6 +66,9 @@ void check_model(const Model& model) {
   for (const Eigen::Isometry3d& motion : model.near_symmetries.motions)
     require(motion.matrix().allFinite() && motion.linear().isUnitary(1e-6),
             "a near symmetry is no motion");
+  require_length(model.outline.reach, "the outline's reach");
+  require_count(static_cast<Eigen::Index>(model.outline.ends.size()), model.cloud.points.rows(),
+                "points in the outline");
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put(std::uint64_t{model.near_symmetries.motions.size()});
   for (const Eigen::Isometry3d& motion : model.near_symmetries.motions)
     out.put_matrix(Eigen::Matrix4d(motion.matrix()));
+  out.put(model.outline.reach);
+  out.put(std::string_view(reinterpret_cast<const char*>(model.outline.ends.data()),
+                           model.outline.ends.size()));
 }
 
 Eigen::Vector3f get_vector(ByteReader& in) {
@@ -72,6 +75,9 @@ Model get_model(ByteReader& in) {
   const auto motions = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < motions; ++i)
     model.near_symmetries.motions.push_back(get_motion(in));
+  model.outline.reach = in.get<float>();
+  const std::string_view ends = in.get_text();
+  model.outline.ends.assign(ends.begin(), ends.end());
   return model;
 }
 

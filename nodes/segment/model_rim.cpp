@@ -10,25 +10,27 @@
 
 namespace posevote {
 
-ModelRim::ModelRim(const Cloud& model, float reach)
-    : model_(model), reach_(reach), ends_(static_cast<std::size_t>(model.points.rows()), 0) {
+Outline outline_of(const Cloud& model, float reach) {
+  Outline outline{reach, std::vector<std::uint8_t>(static_cast<std::size_t>(model.points.rows()))};
   const float near = reach / 2;
   const PointGrid grid(model.points, near);
-  graph::parallel_for(ends_.size(), 256, [&](std::size_t i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    for (int k = 0; k < kDirections; ++k) {
+  graph::parallel_for(outline.ends.size(), 256, [&](std::size_t i) {
+    std::uint8_t& ends = outline.ends[i];
+    for (int k = 0; k < ModelRim::kDirections; ++k) {
+      const Eigen::Vector3f place = ModelRim::ahead(model, static_cast<Eigen::Index>(i), k, reach);
       bool goes_on = false;
-      grid.for_each_within(ahead(row, k), near, [&](std::uint32_t, float) { goes_on = true; });
-      if (!goes_on) ends_[i] = static_cast<std::uint8_t>(ends_[i] | 1U << k);
+      grid.for_each_within(place, near, [&](std::uint32_t, float) { goes_on = true; });
+      if (!goes_on) ends = static_cast<std::uint8_t>(ends | 1U << k);
     }
   });
+  return outline;
 }
 
-Eigen::Vector3f ModelRim::ahead(Eigen::Index i, int direction) const {
-  const Eigen::Vector3f normal = model_.normals.row(i).transpose();
+Eigen::Vector3f ModelRim::ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {
+  const Eigen::Vector3f normal = cloud.normals.row(i).transpose();
   const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
   const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(direction) / kDirections;
-  return model_.points.row(i).transpose() + reach_ * (std::cos(angle) * u + std::sin(angle) * v);
+  return cloud.points.row(i).transpose() + reach * (std::cos(angle) * u + std::sin(angle) * v);
 }
 
 }  // namespace posevote

@@ -4,10 +4,7 @@
 // by its narrow side to a broad one, or of a body sunk into a table, the scan goes on.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "nodes/data/cloud.hpp"
+#include "nodes/data/model.hpp"
 
 namespace posevote {
 
@@ -15,25 +12,28 @@ class ModelRim {
  public:
   static constexpr int kDirections = 6;  ///< around a point, in its tangent plane
 
-  /// Looks from every model point `reach` [m] ahead in each direction: the model goes on if any
-  /// point of it lies within half of that. One search a point and direction.
-  ModelRim(const Cloud& model, float reach);
+  /// Keeps references to both. The outline is of this cloud.
+  ModelRim(const Cloud& model, const Outline& outline) : model_(model), outline_(outline) {}
 
   /// Calls visit(place) for the places ahead of point `i` where the model is no more, in the
   /// model's frame.
   template <class Visit>
   void for_each_end(Eigen::Index i, const Visit& visit) const {
-    const std::uint8_t ends = ends_[static_cast<std::size_t>(i)];
+    const std::uint8_t ends = outline_.ends[static_cast<std::size_t>(i)];
     for (int k = 0; k < kDirections && ends != 0; ++k)
-      if ((ends >> k & 1U) != 0) visit(ahead(i, k));
+      if ((ends >> k & 1U) != 0) visit(ahead(model_, i, k, outline_.reach));
   }
 
- private:
-  Eigen::Vector3f ahead(Eigen::Index i, int direction) const;
+  /// The place `reach` [m] ahead of point `i` of a cloud in one of the directions.
+  static Eigen::Vector3f ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach);
 
+ private:
   const Cloud& model_;
-  float reach_;
-  std::vector<std::uint8_t> ends_;  // a bit for each direction, per point
+  const Outline& outline_;
 };
+
+/// Looks from every model point `reach` [m] ahead in each direction: the model goes on if any point
+/// of it lies within half of that. One search a point and direction.
+Outline outline_of(const Cloud& model, float reach);
 
 }  // namespace posevote

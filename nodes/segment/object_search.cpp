@@ -15,7 +15,6 @@ constexpr std::size_t kShortlist = 100;  // judged by kLook model points
 constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
 constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
 constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
-constexpr float kRimReach = 2.5;         // x tolerance: a scan that ends ends within that
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 constexpr double kHopeless = 0.25;       // x the best rank: ICP seldom raises one fourfold
 
@@ -36,7 +35,7 @@ void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
 ObjectSearch::ObjectSearch(const Model& model, Proposals proposals, const InstanceParams& params,
                            const ScanState& scan)
     : model_(model),
-      rim_(model.cloud, kRimReach * params.tolerance),
+      rim_(model.cloud, model.outline),
       proposals_(std::move(proposals)),
       params_(params),
       scan_(scan) {}

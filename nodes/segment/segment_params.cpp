@@ -52,6 +52,10 @@ void check_scan(const FeatureSet& scene_features, const Cloud& scene_cloud, cons
 
 void check_model(const Model& model) {
   check_normals("model " + model.name, model.cloud.points, model.cloud.normals);
+  if (model.outline.ends.size() != static_cast<std::size_t>(model.cloud.points.rows()))
+    throw std::runtime_error("model " + model.name + " has " +
+                             std::to_string(model.cloud.points.rows()) + " points but " +
+                             std::to_string(model.outline.ends.size()) + " in its outline");
 }
 
 }  // namespace posevote

@@ -173,13 +173,14 @@ void build_neighbourhoods(benchmark::State& state) {
 
 void outline(benchmark::State& state) {
   const Cloud& cloud = setting().model.cloud;
-  for (auto _ : state) benchmark::DoNotOptimize(ModelRim(cloud, 5 * kResolution));
+  for (auto _ : state) benchmark::DoNotOptimize(outline_of(cloud, 5 * kResolution));
   count_items(state, cloud.points.rows());
 }
 
 void score_pose(benchmark::State& state) {
   const Setting& s = setting();
-  const ModelRim rim(s.model.cloud, 5 * kResolution);
+  const Outline outline = outline_of(s.model.cloud, 5 * kResolution);
+  const ModelRim rim(s.model.cloud, outline);
   const RangeView view(s.scan.cloud, kResolution);
   const ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
   for (auto _ : state)

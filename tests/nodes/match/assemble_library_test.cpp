@@ -8,9 +8,10 @@ using namespace posevote::test;
 
 namespace {
 
-PerObject<NearSymmetries> one_empty() {
-  PerObject<NearSymmetries> list;
-  list.slots = {std::make_shared<const NearSymmetries>()};
+template <class T>
+PerObject<T> one_empty() {
+  PerObject<T> list;
+  list.slots = {std::make_shared<const T>()};
   return list;
 }
 
@@ -36,7 +37,8 @@ TEST_CASE("the centre is that of the mesh, not of the sampled cloud", "[match]")
   cloud.slots = {std::make_shared<const Cloud>(box_cloud({0, 0, 0}, {1, 1, 1}))};
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   const auto library = run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                                              mesh, cloud, features, one_empty(), Scale{0.002F});
+                                              mesh, cloud, features, one_empty<NearSymmetries>(),
+                                              one_empty<Outline>(), Scale{0.002F});
   CHECK(library.models[0]->center.isApprox(Eigen::Vector3f(1, 0.5F, 0.5F)));
   CHECK(library.models[0]->cloud.points == cloud[0].points);
 }
@@ -48,13 +50,14 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
   CHECK_THROWS_WITH(
       run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
                              PerObject<Cloud>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
-                             PerObject<NearSymmetries>{}, Scale{1}),
+                             PerObject<NearSymmetries>{}, PerObject<Outline>{}, Scale{1}),
       Catch::Contains("1 model files, but 0 meshes"));
   PerObject<Cloud> empty;
   empty.slots = {std::make_shared<const Cloud>()};
   PerObject<FeatureSet> features;
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
-  CHECK_THROWS_WITH(run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                                           empty, empty, features, one_empty(), Scale{1}),
-                    Catch::Contains("a.ply: has no points"));
+  CHECK_THROWS_WITH(
+      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}}, empty, empty,
+                             features, one_empty<NearSymmetries>(), one_empty<Outline>(), Scale{1}),
+      Catch::Contains("a.ply: has no points"));
 }

@@ -16,7 +16,8 @@ constexpr float kReach = 2.5F * kTolerance;
 Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_scene_model) {
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
-  return measure_fit(model, ModelRim(model, kReach), surface, view, T_scene_model, kTolerance);
+  const Outline outline = outline_of(model, kReach);
+  return measure_fit(model, ModelRim(model, outline), surface, view, T_scene_model, kTolerance);
 }
 
 const Placed kBody{1, pose(0, 0.02, 0.8, 0.7)};
@@ -110,7 +111,8 @@ TEST_CASE("a flat patch is weak evidence, however well it fits", "[segment]") {
 TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "[segment]") {
   const float half = 0.1F;
   const Cloud plate = test::detail::wall(0, half);
-  const ModelRim rim(plate, kReach);
+  const Outline outline = outline_of(plate, kReach);
+  const ModelRim rim(plate, outline);
   for (Eigen::Index i = 0; i < plate.points.rows(); ++i) {
     const float inside = half - plate.points.row(i).head<2>().cwiseAbs().maxCoeff();
     int ends = 0;
@@ -123,7 +125,8 @@ TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "
     if (inside < 0.1F * kReach) CHECK(ends >= 2);
   }
   const Cloud body = bumpy_model(1)->cloud;
-  const ModelRim closed(body, kReach);
+  const Outline body_outline = outline_of(body, kReach);
+  const ModelRim closed(body, body_outline);
   int ends = 0;
   for (Eigen::Index i = 0; i < body.points.rows(); ++i)
     closed.for_each_end(i, [&](const Eigen::Vector3f&) { ++ends; });
@@ -153,7 +156,8 @@ TEST_CASE("a sample of the model gives nearly the same fit", "[segment]") {
   const Cloud scan = scan_of({kBody}), model = bumpy_model(1)->cloud;
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
-  const ModelRim rim(model, kReach);
+  const Outline outline = outline_of(model, kReach);
+  const ModelRim rim(model, outline);
   const Fit all = measure_fit(model, rim, surface, view, kBody.T_scene_model, kTolerance);
   const Fit some = measure_fit(model, rim, surface, view, kBody.T_scene_model, kTolerance, 800);
   CHECK(some.facing < all.facing / 4);
