@@ -2,19 +2,15 @@
 // What the rivals that PCL groups correspondences for share.
 #pragma once
 
+#include <pcl/correspondence.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <Eigen/StdVector>
 #include <memory>
 #include <vector>
 
 #include "nodes/data/hypotheses.hpp"
-
-namespace pcl {
-template <class Point>
-class PointCloud;
-struct PointXYZ;
-struct Correspondence;
-using Correspondences = std::vector<Correspondence, Eigen::aligned_allocator<Correspondence>>;
-}  // namespace pcl
 
 namespace posevote {
 
