@@ -2,6 +2,9 @@
 #include "nodes/baseline/pcl_grouping.hpp"
 
 #include <pcl/console/print.h>
+#include <pcl/correspondence.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 
 namespace posevote {
 

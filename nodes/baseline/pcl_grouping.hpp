@@ -2,15 +2,19 @@
 // What the rivals that PCL groups correspondences for share.
 #pragma once
 
-#include <pcl/correspondence.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
 #include <Eigen/StdVector>
 #include <memory>
 #include <vector>
 
 #include "nodes/data/hypotheses.hpp"
+
+namespace pcl {
+template <class Point>
+class PointCloud;
+struct PointXYZ;
+struct Correspondence;
+using Correspondences = std::vector<Correspondence, Eigen::aligned_allocator<Correspondence>>;
+}  // namespace pcl
 
 namespace posevote {
 
@@ -28,12 +32,13 @@ using PclPoses = std::vector<Eigen::Matrix4f, Eigen::aligned_allocator<Eigen::Ma
 Hypotheses make_hypotheses(const Correspondences& matches, const PclPoses& poses,
                            const std::vector<pcl::Correspondences>& groups);
 
-/// What a grouping of PCL's, whose clouds are set, makes of the pairs.
-template <class Grouping>
+/// What a grouping of PCL's, whose clouds are set, makes of the pairs. (Groups is a parameter, so
+/// that PCL's types need not be complete here.)
+template <class Grouping, class Groups = std::vector<pcl::Correspondences>>
 Hypotheses group(Grouping& grouping, const PclPairs& pairs, const Correspondences& matches) {
   grouping.setModelSceneCorrespondences(pairs.pairs);
   PclPoses poses;
-  std::vector<pcl::Correspondences> groups;
+  Groups groups;
   grouping.recognize(poses, groups);
   return make_hypotheses(matches, poses, groups);
 }
