@@ -55,6 +55,30 @@ TEST_CASE("segment_hypotheses finds every instance once", "[segment]") {
   CHECK(std::min(shift(found[0], kRight), shift(found[1], kRight)) < 0.002);
 }
 
+TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment]") {
+  const Cloud scan = scan_of({kLeft});
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.linear() =
+      Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  auto model = std::make_shared<Model>(*bumpy_model(1));
+  const auto found_with = [&](const NearSymmetries& near_symmetries) {
+    model->near_symmetries = near_symmetries;
+    PerObject<Hypotheses> objects;
+    objects.slots = {std::make_shared<Hypotheses>(
+        Hypotheses{model, {{kLeft.T_scene_model * turned.inverse(), 9}}})};
+    return run_node<Detections>("segment_hypotheses", {}, objects, features_of(scan), scan,
+                                Scale{kResolution})
+        .items;
+  };
+  const auto alone = found_with({});
+  CHECK((alone.empty() || shift(alone[0], kLeft) > 0.002 || alone[0].score < 0.8));
+  const auto found = found_with({{turned}});
+  REQUIRE(found.size() == 1);
+  CHECK(shift(found[0], kLeft) < 0.002);
+  CHECK(found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02));
+  CHECK(found[0].density == 9);  // of the mode that it came from
+}
+
 TEST_CASE("segment_hypotheses of nothing is nothing", "[segment]") {
   CHECK(segment({}, {}).empty());
   CHECK(segment({beside(kLeft, 0, 5)}, {{"min_density", "6"}}).empty());
