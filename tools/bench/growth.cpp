@@ -58,13 +58,15 @@ std::string scan_file(const fs::path& folder, std::size_t points) {
   std::vector<Body> bodies;
   Random random(1, points);
   std::vector<std::shared_ptr<const Cloud>> meshes;
+  meshes.reserve(kKinds.size());
   for (const std::string& kind : kKinds)
     meshes.push_back(std::make_shared<const Cloud>(make_shape(kind, 1, kSize)));
   for (int i = 0; i < plots * plots; ++i) {
     Body body{meshes[static_cast<std::size_t>(i) % meshes.size()], i + 1,
               Eigen::Isometry3d::Identity()};
-    body.T_world_body.translation() << (i % plots + 0.5) * kPlot - extent / 2,
-        (i / plots + 0.5) * kPlot - extent / 2, kSize / 2;
+    const int column = i % plots, row = i / plots;
+    body.T_world_body.translation() << (column + 0.5) * kPlot - extent / 2,
+        (row + 0.5) * kPlot - extent / 2, kSize / 2;
     body.T_world_body.rotate(
         Eigen::AngleAxisd(random.uniform(0, 2 * std::numbers::pi), Eigen::Vector3d::UnitZ()));
     bodies.push_back(body);
