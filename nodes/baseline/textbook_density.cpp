@@ -5,30 +5,32 @@
 // densities are the same; what differs is the time, minutes for a real scan.
 //
 //   textbook_density: {in: votes, out: densities}
-#include <cmath>
 #include <nanoflann.hpp>
-#include <numbers>
 
 #include "graph/parallel.hpp"
-#include "graph/registry.hpp"
+#include "nodes/vote/density_params.hpp"
 #include "nodes/vote/pose_index.hpp"
 
 namespace posevote {
 namespace {
 
-struct Params {
-  double sigma_t = 0.01;
-  double sigma_r = 22.5;
-};
+/// The votes one by one, as nanoflann reads their translations; those that are no pose left out.
+struct UsableVotes {
+  std::vector<VotePoint> points;
+  std::vector<std::size_t> votes;  ///< of the set, per point
 
-/// The votes' translations as nanoflann reads them.
-struct Translations {
-  const VoteSet& votes;
-
-  std::size_t kdtree_get_point_count() const { return votes.tx.size(); }
-  float kdtree_get_pt(std::size_t vote, std::size_t axis) const {
-    const float value = axis == 0 ? votes.tx[vote] : axis == 1 ? votes.ty[vote] : votes.tz[vote];
-    return std::isfinite(value) ? value : 1e9F;  // out of everybody's reach
+  UsableVotes(const VoteSet& set, Bandwidth bandwidth) {
+    for (std::size_t v = 0; v < set.tx.size(); ++v) {
+      const VotePoint point{set.tx[v], set.ty[v], set.tz[v], set.qw[v],
+                            set.qx[v], set.qy[v], set.qz[v]};
+      if (!is_usable(point, bandwidth)) continue;
+      points.push_back(point);
+      votes.push_back(v);
+    }
+  }
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return axis == 0 ? points[i].tx : axis == 1 ? points[i].ty : points[i].tz;
   }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
@@ -36,52 +38,40 @@ struct Translations {
   }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Translations>,
-                                                 Translations, 3>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, UsableVotes>,
+                                                 UsableVotes, 3>;
 
-VotePoint point_of(const VoteSet& votes, std::size_t v) {
-  return {votes.tx[v], votes.ty[v], votes.tz[v], votes.qw[v],
-          votes.qx[v], votes.qy[v], votes.qz[v]};
-}
-
-VoteDensity textbook_density(const VoteSet& votes, const Params& params) {
-  const Bandwidth bandwidth{static_cast<float>(params.sigma_t),
-                            static_cast<float>(params.sigma_r * std::numbers::pi / 180)};
+VoteDensity textbook_density(const VoteSet& votes, const DensityParams& params) {
+  const Bandwidth bandwidth = params.bandwidth();
   VoteDensity result;
   result.index = std::make_shared<const PoseIndex>(votes, bandwidth);  // segmentation needs it
   result.density.assign(votes.tx.size(), 0);
-  if (votes.tx.empty()) return result;
+  const UsableVotes usable(votes, bandwidth);
+  if (usable.points.empty()) return result;
   const Kernel kernel = make_kernel(bandwidth);
-  const Translations translations{votes};
   constexpr std::size_t kLeafSize = 10;
-  const Tree tree(3, translations, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+  const Tree tree(3, usable, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
   const nanoflann::SearchParams unsorted(0, 0, false);
   const float reach = 1.0001F * kernel.max_dt2;  // squared; the kernel decides who is in
-  graph::parallel_for(votes.tx.size(), 256, [&](std::size_t v) {
-    const VotePoint vote = point_of(votes, v);
-    if (!is_usable(vote, bandwidth)) return;
+  graph::parallel_for(usable.points.size(), 256, [&](std::size_t i) {
+    const VotePoint& vote = usable.points[i];
     const float center[3] = {vote.tx, vote.ty, vote.tz};
     thread_local std::vector<std::pair<std::uint32_t, float>> near;
     tree.radiusSearch(center, reach, near, unsorted);
     std::uint64_t units = 0;
     for (const auto& [other, squared] : near)
-      if (const VotePoint b = point_of(votes, other); is_usable(b, bandwidth))
-        units += kernel_units(kernel, vote, b);
-    result.density[v] = static_cast<double>(units) / static_cast<double>(kWeightUnits);
+      units += kernel_units(kernel, vote, usable.points[other]);
+    result.density[usable.votes[i]] =
+        static_cast<double>(units) / static_cast<double>(kWeightUnits);
   });
   return result;
 }
 
 const auto registered =
-    graph::register_node("textbook_density", textbook_density,
-                         "Rival: the density by a k-d tree over translations.")
-        .input("votes")
-        .output("densities")
-        .param("sigma_t", &Params::sigma_t, "m",
-               "Bandwidth in translation; votes farther apart do not count.",
-               graph::in_range(1e-5, 10))
-        .param("sigma_r", &Params::sigma_r, "deg",
-               "Bandwidth in rotation; votes turned farther do not count.", graph::in_range(1, 90));
+    with_density_params(graph::register_node("textbook_density", textbook_density,
+                                             "Rival: the density by a k-d tree over translations.")
+                            .input("votes")
+                            .output("densities"));
 
 }  // namespace
 }  // namespace posevote

@@ -59,14 +59,21 @@ Cloud every(const Cloud& cloud, Eigen::Index count) {
   return sample;
 }
 
+/// Share of the sample's points of which, moved, `is_on(point)` holds.
+template <class IsOn>
+double share_of(const Cloud& sample, const Isometry3d& motion, const IsOn& is_on) {
+  const Eigen::Isometry3f T = motion.cast<float>();
+  int on = 0;
+  for (Eigen::Index i = 0; i < sample.points.rows(); ++i) on += is_on(posed_point(sample, i, T));
+  return on / static_cast<double>(sample.points.rows());
+}
+
 /// Share of the sample that a motion brings near to the surface.
 double overlap_of(const Cloud& sample, const ScanSurface& surface, const Isometry3d& motion,
                   float distance) {
-  const Eigen::Isometry3f T = motion.cast<float>();
-  int near = 0;
-  for (Eigen::Index i = 0; i < sample.points.rows(); ++i)
-    near += surface.nearest_compatible(posed_point(sample, i, T), distance).has_value();
-  return near / static_cast<double>(sample.points.rows());
+  return share_of(sample, motion, [&](const OrientedPoint& p) {
+    return surface.nearest_compatible(p, distance).has_value();
+  });
 }
 
 void sort_by_overlap(std::vector<Rated>& motions) {
@@ -92,40 +99,26 @@ std::vector<Rated> rate_rotations(const Cloud& cloud, const Eigen::Vector3d& cen
 class Judge {
  public:
   Judge(const Cloud& cloud, float fine)
-      : sample_(every(cloud, kSample)),
-        surface_(cloud, false, fine),
-        near_(cloud.points, fine),
-        shown_(static_cast<std::size_t>(cloud.points.rows()), 0),
-        fine_(fine) {}
+      : sample_(every(cloud, kSample)), surface_(cloud, false, fine), fine_(fine) {}
 
   Rated refine(const Rated& start, float near) const {
     const Isometry3d motion = icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
-    return {motion, overlap(motion)};
+    return {motion, overlap_of(sample_, surface_, motion, fine_)};
   }
-  double overlap(const Isometry3d& motion) const {
-    return overlap_of(sample_, surface_, motion, fine_);
-  }
-  /// Whether two motions lead to poses that look the same.
+  /// Whether two motions lead to poses that look the same: normals aside, which are anyone's at an
+  /// edge.
   bool same(const Isometry3d& a, const Isometry3d& b) const {
     const Isometry3d between = a.inverse() * b;
-    return Eigen::AngleAxisd(between.linear()).angle() < kSameMotion ||
-           share_on_surface(between) >= kSymmetric;
+    if (Eigen::AngleAxisd(between.linear()).angle() < kSameMotion) return true;
+    const double on = share_of(sample_, between, [this](const OrientedPoint& p) {
+      return surface_.nearest_left(p.point, fine_).has_value();
+    });
+    return on >= kSymmetric;
   }
 
  private:
-  /// Normals aside, which are anyone's at an edge.
-  double share_on_surface(const Isometry3d& motion) const {
-    const Eigen::Isometry3f T = motion.cast<float>();
-    int on = 0;
-    for (Eigen::Index i = 0; i < sample_.points.rows(); ++i)
-      on += near_.nearest(posed_point(sample_, i, T).point, fine_, shown_).has_value();
-    return on / static_cast<double>(sample_.points.rows());
-  }
-
   Cloud sample_;
   ScanSurface surface_;
-  Neighbourhoods near_;
-  std::vector<char> shown_;  // none of the points is hidden
   float fine_;
 };
 

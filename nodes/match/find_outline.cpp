@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a model's surfaces end: segmentation holds that against where the scan's do
-// (model_rim.hpp). `reach` is what a scan that ends is off at most. O(points).
+// (outline.hpp). `reach` is what a scan that ends is off at most. O(points).
 //
 //   find_outline: {in: [cloud, scale], out: outline}
 #include <stdexcept>
 
 #include "graph/registry.hpp"
-#include "nodes/segment/model_rim.hpp"
+#include "nodes/segment/outline.hpp"
 
 namespace posevote {
 namespace {

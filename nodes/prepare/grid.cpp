@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "nodes/prepare/cells.hpp"
 #include "nodes/prepare/radix_sort.hpp"
 
 namespace posevote {
@@ -10,11 +11,6 @@ namespace {
 
 std::uint64_t key_of(std::int64_t y, std::int64_t z) {
   return (static_cast<std::uint64_t>(z) << 32) | static_cast<std::uint32_t>(y);
-}
-
-std::size_t scatter(std::uint64_t key, std::size_t mask) {
-  key *= 0x9E3779B97F4A7C15ULL;  // Fibonacci hashing
-  return static_cast<std::size_t>(key >> 32) & mask;
 }
 
 struct Entry {
@@ -26,9 +22,7 @@ struct Entry {
 }  // namespace
 
 PointGrid::PointGrid(const PointMatrix& points, float cell) {
-  std::vector<std::uint32_t> finite;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (points.row(i).allFinite()) finite.push_back(static_cast<std::uint32_t>(i));
+  const std::vector<std::uint32_t> finite = finite_rows(points);
   if (finite.empty()) return;
 
   Eigen::Vector3f low = points.row(finite.front());

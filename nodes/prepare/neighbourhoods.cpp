@@ -5,6 +5,9 @@
 #include <bit>
 #include <cmath>
 
+#include "nodes/prepare/cells.hpp"
+#include "nodes/prepare/radix_sort.hpp"
+
 namespace posevote {
 namespace {
 
@@ -18,17 +21,10 @@ std::uint64_t key_of(const std::array<std::int64_t, 3>& cube) {
   return key;
 }
 
-std::size_t scatter(std::uint64_t key, std::size_t mask) {
-  key *= 0x9E3779B97F4A7C15ULL;  // Fibonacci hashing
-  return static_cast<std::size_t>(key >> 32) & mask;
-}
-
 }  // namespace
 
 Neighbourhoods::Neighbourhoods(const PointMatrix& points, float reach) : reach_(reach) {
-  std::vector<std::uint32_t> finite;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (points.row(i).allFinite()) finite.push_back(static_cast<std::uint32_t>(i));
+  const std::vector<std::uint32_t> finite = finite_rows(points);
   if (finite.empty() || !(reach > 0) || !std::isfinite(reach)) return;
   const auto all = points(finite, Eigen::all);
   const Eigen::Vector3d low = all.colwise().minCoeff().transpose().cast<double>();
@@ -40,13 +36,13 @@ Neighbourhoods::Neighbourhoods(const PointMatrix& points, float reach) : reach_(
   struct Keyed {
     std::uint64_t key;
     std::uint32_t index;
-    bool operator<(const Keyed& b) const { return key != b.key ? key < b.key : index < b.index; }
   };
   std::vector<Keyed> keyed;
   keyed.reserve(finite.size());
   for (const std::uint32_t i : finite)
     keyed.push_back({key_of(cube_of(points(i, 0), points(i, 1), points(i, 2))), i});
-  std::sort(keyed.begin(), keyed.end());
+  radix_sort(keyed, [](const Keyed& one) { return static_cast<std::uint32_t>(one.key); });
+  radix_sort(keyed, [](const Keyed& one) { return static_cast<std::uint32_t>(one.key >> 32); });
   points_.reserve(keyed.size());
   for (std::uint32_t k = 0; k < keyed.size(); ++k) {
     const std::uint32_t i = keyed[k].index;
@@ -103,11 +99,11 @@ Neighbourhoods::Slot& Neighbourhoods::claim(std::uint64_t key) {
   std::size_t at = scatter(key, mask);
   while (slots_[at].end != 0 && slots_[at].key != key) at = (at + 1) & mask;
   if (slots_[at].end != 0) return slots_[at];
-  if (2 * ++claimed_ > slots_.size()) {
+  if (2 * (claimed_ + 1) > slots_.size()) {
     grow();
-    --claimed_;
     return claim(key);
   }
+  ++claimed_;
   slots_[at].key = key;
   return slots_[at];
 }

@@ -39,10 +39,10 @@ Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& v
 }
 
 /// Looks where the model ends whether the scan does; what is hidden there does not tell.
-void judge_ends(const ModelRim& rim, Eigen::Index i, const Eigen::Isometry3f& T,
-                const OrientedPoint& p, const ScanSurface& scan, const RangeView& view,
-                float tolerance, Judged& judged) {
-  rim.for_each_end(i, [&](const Eigen::Vector3f& end) {
+void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
+                const Eigen::Isometry3f& T, const OrientedPoint& p, const ScanSurface& scan,
+                const RangeView& view, float tolerance, Judged& judged) {
+  for_each_end(model, outline, i, [&](const Eigen::Vector3f& end) {
     const Eigen::Vector3f place = T * end;
     if (scan.nearest_compatible({place, p.normal}, tolerance)) {
       ++judged.overhang;
@@ -88,7 +88,7 @@ Fit count(const std::vector<Judged>& points) {
 
 }  // namespace
 
-Fit measure_fit(const Cloud& model, const ModelRim& rim, const ScanSurface& scan,
+Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& scan,
                 const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
                 Eigen::Index samples) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
@@ -99,7 +99,7 @@ Fit measure_fit(const Cloud& model, const ModelRim& rim, const ScanSurface& scan
     const OrientedPoint p = posed_point(model, row, T);
     points[i] = judge(p, scan, view, scan.viewpoint(), tolerance);
     if (points[i].verdict == Verdict::kSupported)
-      judge_ends(rim, row, T, p, scan, view, tolerance, points[i]);
+      judge_ends(model, outline, row, T, p, scan, view, tolerance, points[i]);
   });
   return count(points);
 }
@@ -128,7 +128,7 @@ double fit_score(const Fit& fit) {
   const double against = static_cast<double>(fit.contradicted) +
                          0.5 * static_cast<double>(fit.mismatched + fit.unseen);
   const double agreement = supported / (supported + against);
-  const double looks = ModelRim::kDirections * supported;
+  const double looks = kOutlineDirections * supported;
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
   const double clues = fit.relief + kOutline * (ends - overhang) / looks;
   const double evidence = 1 - std::exp(-fit.inlier_fraction * clues / kConvincing);

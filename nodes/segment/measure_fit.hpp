@@ -18,7 +18,7 @@
 #include <cstddef>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/segment/model_rim.hpp"
+#include "nodes/segment/outline.hpp"
 #include "nodes/segment/range_view.hpp"
 #include "nodes/segment/scan_surface.hpp"
 
@@ -35,8 +35,9 @@ struct Fit {
 };
 
 /// `tolerance`: of support; a surface is clearly behind or before at twice that [m]. `samples`:
-/// about as many points of the model are judged, evenly strewn; 0 judges all. `rim` is the model's.
-Fit measure_fit(const Cloud& model, const ModelRim& rim, const ScanSurface& scan,
+/// about as many points of the model are judged, evenly strewn; 0 judges all. `outline` is the
+/// model's.
+Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& scan,
                 const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
                 Eigen::Index samples = 0);
 

@@ -34,16 +34,13 @@ void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
 
 ObjectSearch::ObjectSearch(const Model& model, Proposals proposals, const InstanceParams& params,
                            const ScanState& scan)
-    : model_(model),
-      rim_(model.cloud, model.outline),
-      proposals_(std::move(proposals)),
-      params_(params),
-      scan_(scan) {}
+    : model_(model), proposals_(std::move(proposals)), params_(params), scan_(scan) {}
 
 void ObjectSearch::propose() {
   most_support_ = 1e-9;
   pool_.clear();
-  for (const PoseMode& mode : proposals_.propose(scan_, taken_)) {
+  for (const PoseMode& mode :
+       separate_modes(proposals_.propose(), taken_, params_.nms_radius, params_.candidates)) {
     pool_.emplace_back().mode = mode;
     most_support_ = std::max(most_support_, mode.support);
   }
@@ -54,13 +51,17 @@ void ObjectSearch::propose() {
   graph::parallel_for(pool_.size(), 1,
                       [this](std::size_t i) { pool_[i].mode = proposals_.improve(pool_[i].mode); });
   judge(0, pool_.size(), kLook);
-  proposed_at_ = judged_at_ = scan_.takes;
-  choose();
+  proposed_at_ = scan_.takes;
+  choose_among_judged();
 }
 
 void ObjectSearch::choose() {
-  if (judged_at_ != scan_.takes) judge_again();
-  best_ = is_full() ? std::nullopt : best_finalist();
+  judge_again();
+  choose_among_judged();
+}
+
+void ObjectSearch::choose_among_judged() {
+  best_ = best_finalist();
   chosen_at_ = scan_.takes;
   if (best_ && best_->score > 0 && best_->score >= params_.min_score) return;
   best_.reset();
@@ -72,7 +73,8 @@ void ObjectSearch::accept() {
   taken_.push_back(center_of(*best_));
   ++accepted_;
   best_.reset();
-  std::erase_if(pool_, [this](const Candidate& other) { return !is_clear(other.mode.center); });
+  std::erase_if(
+      pool_, [this](const Candidate& other) { return is_full() || !is_clear(other.mode.center); });
 }
 
 /// Scores part of the pool by some model points and sorts all up to its end.
@@ -98,7 +100,6 @@ void ObjectSearch::judge_again() {
     if (done < pool_.size() && pool_[kFinalists - 1].rank >= pool_[done].rank) break;
   }
   std::erase_if(pool_, [](const Candidate& candidate) { return candidate.score == 0; });
-  judged_at_ = scan_.takes;
 }
 
 /// Refines the first of a sorted list, as many as may turn out the best. Returns their end.
@@ -167,7 +168,7 @@ void ObjectSearch::set_score(Candidate& candidate) const {
 }
 
 Fit ObjectSearch::measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const {
-  return measure_fit(model_.cloud, rim_, scan_.surface, scan_.view, T_scene_model,
+  return measure_fit(model_.cloud, model_.outline, scan_.surface, scan_.view, T_scene_model,
                      params_.tolerance, samples);
 }
 

@@ -16,6 +16,7 @@ namespace posevote {
 
 struct InstanceParams {
   int max_instances = 1;
+  std::size_t candidates = 1;  ///< modes that are judged
   double min_score = 0;
   float nms_radius = 0;          ///< between the centres of instances [m]
   bool refine = true;            ///< by ICP
@@ -27,10 +28,8 @@ struct InstanceParams {
 
 /// Where poses come from.
 struct Proposals {
-  /// Poses to judge, given what of the scan is explained and the centres that are taken.
-  std::function<std::vector<PoseMode>(const ScanState& scan,
-                                      const std::vector<Eigen::Vector3f>& taken)>
-      propose;
+  /// Poses to judge of the scan as it is now, the best supported first; many may be alike.
+  std::function<std::vector<PoseMode>()> propose;
   /// Makes the pose of a proposal on the short list better, before ICP; its support stays.
   std::function<PoseMode(const PoseMode& mode)> improve;
 };
@@ -72,6 +71,7 @@ class ObjectSearch {
 
  private:
   bool is_full() const { return accepted_ == params_.max_instances; }
+  void choose_among_judged();
   void judge(std::size_t begin, std::size_t end, Eigen::Index samples);
   void judge_again();
   std::optional<Candidate> best_finalist();
@@ -84,7 +84,6 @@ class ObjectSearch {
   bool is_clear(const Eigen::Vector3f& center) const;
 
   const Model& model_;
-  ModelRim rim_;
   Proposals proposals_;
   InstanceParams params_;
   const ScanState& scan_;
@@ -93,7 +92,7 @@ class ObjectSearch {
   std::optional<Candidate> best_;
   std::vector<Eigen::Vector3f> taken_;  ///< centres of what was found
   int accepted_ = 0;
-  int proposed_at_ = -1, judged_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then
+  int proposed_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then
 };
 
 }  // namespace posevote

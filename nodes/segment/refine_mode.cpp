@@ -24,8 +24,7 @@ double total_weight(const std::vector<WeightedVote>& neighbours) {
   return sum;
 }
 
-PoseMode weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& neighbours,
-                       double support) {
+PoseMode weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& neighbours) {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Matrix4d moment = Eigen::Matrix4d::Zero();
   double sum = 0;
@@ -38,7 +37,7 @@ PoseMode weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& ne
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(moment);
   const Eigen::Vector4f mean = solver.eigenvectors().col(3).cast<float>();
-  return {(center / sum).cast<float>(), Eigen::Quaternionf(mean).normalized(), support};
+  return {(center / sum).cast<float>(), Eigen::Quaternionf(mean).normalized(), 0};
 }
 
 bool stands_still(const PoseMode& before, const PoseMode& after, const Bandwidth& bandwidth) {
@@ -53,7 +52,7 @@ PoseMode refine_mode(const VoteSet& votes, const VoteDensity& density,
   PoseMode pose = start;
   std::vector<WeightedVote> neighbours = living_neighbours(density, alive, pose);
   for (int shift = 0; shift < kMaxShifts && !neighbours.empty(); ++shift) {
-    const PoseMode mean = weighted_mean(votes, neighbours, start.support);
+    const PoseMode mean = weighted_mean(votes, neighbours);
     std::vector<WeightedVote> around_mean = living_neighbours(density, alive, mean);
     if (total_weight(around_mean) < total_weight(neighbours)) break;
     const bool still = stands_still(pose, mean, density.index->bandwidth());
@@ -61,6 +60,7 @@ PoseMode refine_mode(const VoteSet& votes, const VoteDensity& density,
     neighbours = std::move(around_mean);
     if (still) break;
   }
+  pose.support = start.support;
   return pose;
 }
 

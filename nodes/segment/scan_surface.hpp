@@ -37,10 +37,10 @@ class ScanSurface {
   bool faces_sensor(const OrientedPoint& p) const;
   /// The nearest scan point, at most `distance` away, if its normal agrees with p's within 45 deg.
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
-
- private:
+  /// The same, whichever way it looks.
   std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
 
+ private:
   PointMatrix points_, normals_;
   std::vector<char> gone_;  // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;

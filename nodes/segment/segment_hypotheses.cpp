@@ -30,17 +30,15 @@ double runner_up_support(const Hypotheses& object, const PoseMode& mode) {
   return best;
 }
 
-Proposals propose_from(const Hypotheses& object, const SegmentParams& params, float nms_radius) {
-  return {
-      [&object, &params, nms_radius](const ScanState&, const std::vector<Eigen::Vector3f>& taken) {
-        std::vector<PoseMode> modes;
-        for (const Hypothesis& hypothesis : object.items)
-          if (hypothesis.support >= params.min_density)
-            modes.push_back(mode_of(hypothesis, *object.model));
-        return separate_modes(modes, taken, nms_radius,
-                              static_cast<std::size_t>(params.candidates));
-      },
-      [](const PoseMode& mode) { return mode; }};
+Proposals propose_from(const Hypotheses& object, double min_density) {
+  return {[&object, min_density] {
+            std::vector<PoseMode> modes;
+            for (const Hypothesis& hypothesis : object.items)
+              if (hypothesis.support >= min_density)
+                modes.push_back(mode_of(hypothesis, *object.model));
+            return modes;
+          },
+          [](const PoseMode& mode) { return mode; }};
 }
 
 Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
@@ -50,10 +48,9 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
   for (const auto& object : objects.slots) check_model(*object->model);
   ScanState scan(scene_cloud, scene_features, scale.resolution);
   std::vector<ObjectSearch> searches;
-  for (const auto& object : objects.slots) {
-    const InstanceParams how = instance_params(params, *object->model, scan.resolution);
-    searches.emplace_back(*object->model, propose_from(*object, params, how.nms_radius), how, scan);
-  }
+  for (const auto& object : objects.slots)
+    searches.emplace_back(*object->model, propose_from(*object, params.min_density),
+                          instance_params(params, *object->model, scan.resolution), scan);
   Detections found;
   for (const Instance& instance : find_instances(searches, scan)) {
     const Hypotheses& object = objects[instance.object];

@@ -29,22 +29,20 @@ Detection make_detection(const LiveVotes& object, const Candidate& candidate) {
   return detection;
 }
 
-Proposals propose_from(LiveVotes& object, const SegmentParams& params, float nms_radius) {
-  return {[&object, &params, nms_radius](const ScanState& scan,
-                                         const std::vector<Eigen::Vector3f>& taken) {
-            remove_explained(object, scan.feature_explained);
-            std::vector<PoseMode> modes;
-            for (const std::uint32_t vote :
-                 best_votes(*object.votes, object.density, params.min_density)) {
-              modes.push_back(vote_pose(*object.votes, vote));
-              modes.back().support = object.density[vote];
-            }
-            return separate_modes(modes, taken, nms_radius,
-                                  static_cast<std::size_t>(params.candidates));
-          },
-          [&object](const PoseMode& mode) {
-            return refine_mode(*object.votes, *object.raw, object.alive, mode);
-          }};
+Proposals propose_from(LiveVotes& object, const ScanState& scan, double min_density) {
+  return {
+      [&object, &scan, min_density] {
+        remove_explained(object, scan.feature_explained);
+        std::vector<PoseMode> modes;
+        for (const std::uint32_t vote : best_votes(*object.votes, object.density, min_density)) {
+          modes.push_back(vote_pose(*object.votes, vote));
+          modes.back().support = object.density[vote];
+        }
+        return modes;
+      },
+      [&object](const PoseMode& mode) {
+        return refine_mode(*object.votes, *object.raw, object.alive, mode);
+      }};
 }
 
 Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
@@ -60,8 +58,8 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
   std::vector<ObjectSearch> searches;
   for (LiveVotes& object : objects) {
     const Model& model = *object.votes->model;
-    const InstanceParams how = instance_params(params, model, scan.resolution);
-    searches.emplace_back(model, propose_from(object, params, how.nms_radius), how, scan);
+    searches.emplace_back(model, propose_from(object, scan, params.min_density),
+                          instance_params(params, model, scan.resolution), scan);
   }
   Detections found;
   for (const Instance& instance : find_instances(searches, scan))

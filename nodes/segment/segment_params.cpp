@@ -21,6 +21,7 @@ InstanceParams instance_params(const SegmentParams& params, const Model& model, 
   const auto length = [&](double multiple) { return static_cast<float>(multiple) * resolution; };
   InstanceParams out;
   out.max_instances = params.max_instances;
+  out.candidates = static_cast<std::size_t>(params.candidates);
   out.min_score = params.min_score;
   out.nms_radius = static_cast<float>(params.nms) * model.diagonal;
   out.refine = params.refine;

@@ -10,38 +10,24 @@
 // Fails never: a vote that is not finite counts nowhere and gets density 0. No votes, no densities.
 //
 //   estimate_density: {in: votes, out: densities, sigma_t: 0.01, sigma_r: 22.5}
-#include <numbers>
-
-#include "graph/registry.hpp"
+#include "nodes/vote/density_params.hpp"
 #include "nodes/vote/pose_index.hpp"
 
 namespace posevote {
 namespace {
 
-struct Params {
-  double sigma_t = 0.01;
-  double sigma_r = 22.5;
-};
-
-VoteDensity estimate_density(const VoteSet& votes, const Params& params) {
-  const Bandwidth bandwidth{static_cast<float>(params.sigma_t),
-                            static_cast<float>(params.sigma_r * std::numbers::pi / 180)};
+VoteDensity estimate_density(const VoteSet& votes, const DensityParams& params) {
   VoteDensity result;
-  result.index = std::make_shared<const PoseIndex>(votes, bandwidth);
+  result.index = std::make_shared<const PoseIndex>(votes, params.bandwidth());
   result.density = result.index->densities();
   return result;
 }
 
-const auto registered =
+const auto registered = with_density_params(
     graph::register_node("estimate_density", estimate_density,
                          "The kernel density of the pose votes in SE(3), at every vote.")
         .input("votes")
-        .output("densities")
-        .param("sigma_t", &Params::sigma_t, "m",
-               "Bandwidth in translation; votes farther apart do not count.",
-               graph::in_range(1e-5, 10))
-        .param("sigma_r", &Params::sigma_r, "deg",
-               "Bandwidth in rotation; votes turned farther do not count.", graph::in_range(1, 90));
+        .output("densities"));
 
 }  // namespace
 }  // namespace posevote

@@ -180,12 +180,11 @@ void outline(benchmark::State& state) {
 void score_pose(benchmark::State& state) {
   const Setting& s = setting();
   const Outline outline = outline_of(s.model.cloud, 5 * kResolution);
-  const ModelRim rim(s.model.cloud, outline);
   const RangeView view(s.scan.cloud, kResolution);
   const ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        measure_fit(s.model.cloud, rim, surface, view, s.T_scene_model, 2 * kResolution, 0));
+        measure_fit(s.model.cloud, outline, surface, view, s.T_scene_model, 2 * kResolution, 0));
   count_items(state, s.model.cloud.points.rows());
 }
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "nodes/data/model.hpp"
-#include "nodes/segment/model_rim.hpp"
+#include "nodes/segment/outline.hpp"
 
 namespace posevote::test {
 

@@ -146,24 +146,25 @@ std::vector<Quantity> quantities() {
 }
 
 /// Throws std::invalid_argument where something else is wanted than there is.
-bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) {
-  for (const std::string& one : wanted) {
-    if (one == "all" || one == name) return true;
-    const std::vector<Quantity> known = quantities();
-    if (std::none_of(known.begin(), known.end(),
-                     [&](const Quantity& quantity) { return quantity.name == one; }))
-      throw std::invalid_argument("--growth " + one +
+std::vector<Quantity> choose(const std::vector<std::string>& wanted) {
+  std::vector<Quantity> all = quantities(), chosen;
+  for (const std::string& name : wanted) {
+    if (name == "all") return all;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Quantity& one) { return one.name == name; });
+    if (found == all.end())
+      throw std::invalid_argument("--growth " + name +
                                   ": expected all, points, models, correspondences, rotations or "
                                   "threads");
+    chosen.push_back(*found);
   }
-  return false;
+  return chosen;
 }
 
 class Bench {
  public:
-  explicit Bench(const BenchCommand& command)
-      : command_(command),
-        folder_(fs::path(command.out.empty() ? "out/growth" : command.out).string() + "_input") {
+  Bench(const BenchCommand& command, fs::path folder)
+      : command_(command), folder_(std::move(folder)) {
     fs::create_directories(folder_);
   }
 
@@ -233,10 +234,12 @@ nlohmann::ordered_json to_json(const std::vector<Curve>& curves) {
 }  // namespace
 
 void bench_growth(const BenchCommand& command) {
-  const Bench bench(command);
+  const std::vector<Quantity> chosen = choose(command.growth);
+  const std::string base = command.out.empty() ? "out/growth" : command.out;
+  const Bench bench(command, base + "_input");
   std::vector<Curve> curves;
-  for (const Quantity& quantity : quantities())
-    if (is_wanted(command.growth, quantity.name)) curves.push_back(bench.grow(quantity));
+  curves.reserve(chosen.size());
+  for (const Quantity& quantity : chosen) curves.push_back(bench.grow(quantity));
   std::printf("\n%-18s %14s %16s\n", "", "time exponent", "memory exponent");
   std::vector<plot::Chart> charts;
   for (const Curve& curve : curves) {
@@ -245,8 +248,7 @@ void bench_growth(const BenchCommand& command) {
     charts.push_back(chart_of(curve));
   }
   const nlohmann::ordered_json rows = to_json(curves);
-  write_report(command.out.empty() ? "out/growth" : command.out, rows.dump(1) + "\n", to_csv(rows),
-               plot::to_svg(charts));
+  write_report(base, rows.dump(1) + "\n", to_csv(rows), plot::to_svg(charts));
 }
 
 }  // namespace posevote

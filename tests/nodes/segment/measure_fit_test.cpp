@@ -17,7 +17,7 @@ Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_sce
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
   const Outline outline = outline_of(model, kReach);
-  return measure_fit(model, ModelRim(model, outline), surface, view, T_scene_model, kTolerance);
+  return measure_fit(model, outline, surface, view, T_scene_model, kTolerance);
 }
 
 const Placed kBody{1, pose(0, 0.02, 0.8, 0.7)};
@@ -112,11 +112,10 @@ TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "
   const float half = 0.1F;
   const Cloud plate = test::detail::wall(0, half);
   const Outline outline = outline_of(plate, kReach);
-  const ModelRim rim(plate, outline);
   for (Eigen::Index i = 0; i < plate.points.rows(); ++i) {
     const float inside = half - plate.points.row(i).head<2>().cwiseAbs().maxCoeff();
     int ends = 0;
-    rim.for_each_end(i, [&](const Eigen::Vector3f& place) {
+    for_each_end(plate, outline, i, [&](const Eigen::Vector3f& place) {
       ++ends;
       CHECK((place - Eigen::Vector3f(plate.points.row(i))).norm() == Approx(kReach).epsilon(1e-4));
       CHECK(place.head<2>().cwiseAbs().maxCoeff() > half);
@@ -126,11 +125,10 @@ TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "
   }
   const Cloud body = bumpy_model(1)->cloud;
   const Outline body_outline = outline_of(body, kReach);
-  const ModelRim closed(body, body_outline);
   int ends = 0;
   for (Eigen::Index i = 0; i < body.points.rows(); ++i)
-    closed.for_each_end(i, [&](const Eigen::Vector3f&) { ++ends; });
-  CHECK(ends < ModelRim::kDirections * body.points.rows() / 50);
+    for_each_end(body, body_outline, i, [&](const Eigen::Vector3f&) { ++ends; });
+  CHECK(ends < kOutlineDirections * body.points.rows() / 50);
 }
 
 TEST_CASE("a flat side is evidence where its outline is the scan's", "[segment]") {
@@ -157,9 +155,8 @@ TEST_CASE("a sample of the model gives nearly the same fit", "[segment]") {
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
   const Outline outline = outline_of(model, kReach);
-  const ModelRim rim(model, outline);
-  const Fit all = measure_fit(model, rim, surface, view, kBody.T_scene_model, kTolerance);
-  const Fit some = measure_fit(model, rim, surface, view, kBody.T_scene_model, kTolerance, 800);
+  const Fit all = measure_fit(model, outline, surface, view, kBody.T_scene_model, kTolerance);
+  const Fit some = measure_fit(model, outline, surface, view, kBody.T_scene_model, kTolerance, 800);
   CHECK(some.facing < all.facing / 4);
   CHECK(fit_score(some) == Approx(fit_score(all)).margin(0.05));
 }

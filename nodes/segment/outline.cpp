@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/segment/model_rim.hpp"
+#include "nodes/segment/outline.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -16,8 +16,8 @@ Outline outline_of(const Cloud& model, float reach) {
   const PointGrid grid(model.points, near);
   graph::parallel_for(outline.ends.size(), 256, [&](std::size_t i) {
     std::uint8_t& ends = outline.ends[i];
-    for (int k = 0; k < ModelRim::kDirections; ++k) {
-      const Eigen::Vector3f place = ModelRim::ahead(model, static_cast<Eigen::Index>(i), k, reach);
+    for (int k = 0; k < kOutlineDirections; ++k) {
+      const Eigen::Vector3f place = place_ahead(model, static_cast<Eigen::Index>(i), k, reach);
       bool goes_on = false;
       grid.for_each_within(place, near, [&](std::uint32_t, float) { goes_on = true; });
       if (!goes_on) ends = static_cast<std::uint8_t>(ends | 1U << k);
@@ -26,10 +26,11 @@ Outline outline_of(const Cloud& model, float reach) {
   return outline;
 }
 
-Eigen::Vector3f ModelRim::ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {
+Eigen::Vector3f place_ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {
   const Eigen::Vector3f normal = cloud.normals.row(i).transpose();
   const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
-  const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(direction) / kDirections;
+  const float angle =
+      2 * std::numbers::pi_v<float> * static_cast<float>(direction) / kOutlineDirections;
   return cloud.points.row(i).transpose() + reach * (std::cos(angle) * u + std::sin(angle) * v);
 }
 
