@@ -19,8 +19,13 @@
 // neighbours. Fails if none is left. Time: O(feature points x neighbours).
 //
 //   describe_point_pairs: {in: [cloud, points, scale], out: features, radius: 25}
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "nodes/describe/feature_set.hpp"
-#include "nodes/describe/point_pair_histogram.hpp"
+#include "nodes/describe/point_pair_sums.hpp"
 #include "nodes/describe/register_descriptor.hpp"
 
 namespace posevote {
@@ -32,33 +37,99 @@ struct Params {
   int min_neighbours = 10;
 };
 
-/// Writes the descriptor of one point and returns how many neighbours it is made of.
-int describe(const Support& support, std::uint32_t point, float min_facing, float* descriptor) {
-  const Cloud& cloud = support.cloud();
-  const Eigen::Vector3f center = cloud.points.row(point);
-  const Eigen::Vector3f normal = cloud.normals.row(point);
-  PointPairHistogram histogram(normal, support.radius());
-  int count = 0;
-  const auto add = [&](std::uint32_t neighbour, float squared) {
-    if (!(squared > 0) || !is_oriented(cloud, neighbour)) return;
-    const Eigen::Vector3f other = cloud.normals.row(neighbour);
-    if (!(normal.dot(other) >= min_facing)) return;
-    histogram.add(cloud.points.row(neighbour).transpose() - center, other);
-    ++count;
+constexpr int kAngles = PointPairSums::kAngles;
+constexpr int kRows = PointPairSums::kDistanceBins;
+constexpr int kColumns = PointPairSums::kAngleBins;
+constexpr int kLength = kAngles * kRows * kColumns;
+
+/// The normals of a cloud in the grid's order, as the kernel wants them.
+class GridNormals {
+ public:
+  explicit GridNormals(const Support& support) : grid_(support.grid()) {
+    const Cloud& cloud = support.cloud();
+    const auto count = static_cast<Eigen::Index>(grid_.size());
+    normals_.setZero(count + static_cast<Eigen::Index>(kGridPadding), 3);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::uint32_t point = grid_.indices()[static_cast<std::size_t>(i)];
+      normals_.row(i) = cloud.normals.row(point);
+      if (!is_oriented(cloud, point)) normals_.row(i).setConstant(std::nanf(""));
+    }
+  }
+  OrientedColumns columns() const {
+    return {grid_.x(),
+            grid_.y(),
+            grid_.z(),
+            normals_.col(0).data(),
+            normals_.col(1).data(),
+            normals_.col(2).data()};
+  }
+
+ private:
+  const PointGrid& grid_;
+  PointMatrix normals_;
+};
+
+/// The histograms, margins folded back into the first and the last bins.
+using Histograms = std::array<std::array<std::array<float, kColumns>, kRows>, kAngles>;
+
+Histograms fold(const PointPairSums& pairs) {
+  Histograms out{};
+  const auto clamp = [](int bin, int bins) {
+    return static_cast<std::size_t>(std::clamp(bin, 0, bins - 1));
   };
-  support.grid().for_each_within(center, support.radius(), add);
-  histogram.write(descriptor);
+  for (int row = 0; row <= kRows; ++row)
+    for (int angle = 0; angle < kAngles; ++angle)
+      for (int column = 0; column <= kColumns; ++column) {
+        const float* sums = pairs.sums[row][angle][column];
+        auto& histogram = out[static_cast<std::size_t>(angle)];
+        auto& near = histogram[clamp(row - 1, kRows)];
+        auto& far = histogram[clamp(row, kRows)];
+        near[clamp(column - 1, kColumns)] += sums[0];
+        near[clamp(column, kColumns)] += sums[1];
+        far[clamp(column - 1, kColumns)] += sums[2];
+        far[clamp(column, kColumns)] += sums[3];
+      }
+  return out;
+}
+
+void write(const Histograms& histograms, float* descriptor) {
+  for (const auto& histogram : histograms)
+    for (std::size_t row = 0; row < kRows; ++row) {
+      float sum = 0;
+      for (const float bin : histogram[row]) sum += bin;
+      // An annulus of a plane holds points in proportion to its radius: so much its row may weigh.
+      const float weight = (static_cast<float>(row) + 0.5F) / static_cast<float>(kRows);
+      // One pair more than there is keeps a row that a pair hardly touches from counting in full.
+      for (const float bin : histogram[row]) *descriptor++ = std::sqrt(bin * (weight / (sum + 1)));
+    }
+}
+
+/// Writes the descriptor of one point and returns how many neighbours it is made of.
+int describe(const Support& support, const OrientedColumns& columns, std::uint32_t point,
+             float min_facing, float* descriptor) {
+  const Eigen::Vector3f center = support.cloud().points.row(point);
+  const Eigen::Vector3f normal = support.cloud().normals.row(point);
+  thread_local std::vector<GridRun> around;
+  around.clear();
+  support.grid().for_each_run(center, center, support.radius(),
+                              [](const GridRun& run) { around.push_back(run); });
+  PointPairSums pairs{};
+  const int count =
+      add_point_pairs(columns, around.data(), around.size(),
+                      {center.data(), normal.data(), support.radius(), min_facing}, pairs);
+  write(fold(pairs), descriptor);
   return count;
 }
 
 FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                                 const Params& params) {
   const Support support(cloud, points, scale, params.radius);
-  const auto min_facing = static_cast<float>(params.min_facing);
+  const GridNormals normals(support);
   const auto one = [&](std::uint32_t point, float* descriptor) {
-    return describe(support, point, min_facing, descriptor) >= params.min_neighbours;
+    return describe(support, normals.columns(), point, static_cast<float>(params.min_facing),
+                    descriptor) >= params.min_neighbours;
   };
-  return support.describe_each(PointPairHistogram::kLength, one);
+  return support.describe_each(kLength, one);
 }
 
 const auto registered =

@@ -68,7 +68,8 @@ std::vector<float> relief_around(const Cloud& cloud, float radius) {
                            sum.squares += moments[near].squares;
                            sum.count += moments[near].count;
                          });
-    for (const std::uint32_t i : voxels[v]) relief[i] = static_cast<float>(relief_of(sum));
+    const auto here = static_cast<float>(relief_of(sum));
+    for (const std::uint32_t i : voxels[v]) relief[i] = here;
   });
   return relief;
 }

@@ -63,8 +63,8 @@ PointMatrix file_normals(const Cloud& scan) {
 
 PointMatrix neighbour_planes(const Cloud& scan, const Scale& scale, const Params& params) {
   const float smallest = static_cast<float>(params.radius) * scale.resolution;
-  return plane_normals(scan.points, suitable_radius(scan.points, smallest, kSpacings),
-                       params.min_neighbours);
+  const auto planes = suitable_planes(scan.points, smallest, kSpacings);
+  return planes ? planes->normals(params.min_neighbours) : PointMatrix::Zero(scan.points.rows(), 3);
 }
 
 bool complete(const PointMatrix& normals) {

@@ -66,9 +66,20 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
                   {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}};
     begin = end;
   }
+  for (auto* column : {&x_, &y_, &z_}) column->resize(size() + kGridPadding, 0);
 }
 
-PointGrid::Rod PointGrid::find(std::int64_t y, std::int64_t z) const {
+std::vector<GridRun> PointGrid::pieces(float length) const {
+  std::vector<GridRun> pieces;
+  for (const Slot& slot : slots_)
+    for (std::uint32_t begin = slot.rod.begin, end = begin; begin < slot.rod.end; begin = end) {
+      while (end < slot.rod.end && x_[end] - x_[begin] <= length) ++end;
+      pieces.push_back({begin, end});
+    }
+  return pieces;
+}
+
+GridRun PointGrid::find(std::int64_t y, std::int64_t z) const {
   if (y < 0 || z < 0) return {};
   const std::uint64_t key = key_of(y, z);
   const std::size_t mask = slots_.size() - 1;

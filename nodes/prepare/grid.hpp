@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
+#include "nodes/prepare/grid_run.hpp"
 
 namespace posevote {
 
@@ -46,67 +46,79 @@ class PointGrid {
   template <class Visit>
   void for_each_offset_within(const Eigen::Vector3f& center, float radius,
                               const Visit& visit) const {
-    if (x_.empty() || !center.allFinite() || !(radius >= 0)) return;
+    if (!center.allFinite() || !(radius >= 0)) return;
+    for_each_run(center, center, radius, [&](const GridRun& run) {
+      const float squared_radius = radius * radius;
+      for (std::size_t i = run.begin; i < run.end; ++i) {
+        const float dx = x_[i] - center.x();
+        const float dy = y_[i] - center.y();
+        const float dz = z_[i] - center.z();
+        const float squared = dx * dx + dy * dy + dz * dz;
+        if (squared <= squared_radius) visit(index_[i], squared, dx, dy, dz);
+      }
+    });
+  }
+
+  /// Calls visit(run) for runs of points that hold all those within `radius` of the box from `low`
+  /// to `high` (finite), and some others: the way in for kernels that take many points at once.
+  template <class Visit>
+  void for_each_run(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float radius,
+                    const Visit& visit) const {
+    if (size() == 0) return;
     // The windows are a trifle wider than the ball: only the distance decides who is in.
     const double reach = 1.000001 * radius;
-    const std::int64_t y_begin = row(center.y() - reach, origin_.y());
-    const std::int64_t y_end = row(center.y() + reach, origin_.y());
-    const std::int64_t z_begin = row(center.z() - reach, origin_.z());
-    const std::int64_t z_end = row(center.z() + reach, origin_.z());
+    const std::int64_t y_begin = row(low.y() - reach, origin_.y());
+    const std::int64_t y_end = row(high.y() + reach, origin_.y());
+    const std::int64_t z_begin = row(low.z() - reach, origin_.z());
+    const std::int64_t z_end = row(high.z() + reach, origin_.z());
     const auto rods =
         static_cast<double>(y_end - y_begin + 1) * static_cast<double>(z_end - z_begin + 1);
     if (rods > static_cast<double>(slots_.size()))  // fewer points than places to look for them
-      return visit_rod({0, static_cast<std::uint32_t>(x_.size())}, kNoEnd, center, radius, visit);
+      return visit(GridRun{0, static_cast<std::uint32_t>(size())});
     for (std::int64_t z = z_begin; z <= z_end; ++z)
       for (std::int64_t y = y_begin; y <= y_end; ++y) {
-        const Rod rod = find(y, z);
-        const auto first =
-            std::lower_bound(x_.begin() + rod.begin, x_.begin() + rod.end, center.x() - reach);
-        const Rod from{static_cast<std::uint32_t>(first - x_.begin()), rod.end};
-        visit_rod(from, center.x() + reach, center, radius, visit);
+        const GridRun rod = find(y, z);
+        const auto end = x_.begin() + rod.end;
+        const auto first = std::lower_bound(x_.begin() + rod.begin, end, low.x() - reach);
+        const auto last = std::upper_bound(first, end, high.x() + reach);
+        if (first != last) visit(GridRun{position(first), position(last)});
       }
   }
+
+  /// The points in the grid's order, those of one rod by x. Behind the last of the coordinates
+  /// kGridPadding floats may be read.
+  std::size_t size() const { return index_.size(); }
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+  const std::vector<std::uint32_t>& indices() const { return index_; }  ///< of the cloud, each
+
+  /// Cuts the rods into runs of at most `length` [m] along x.
+  std::vector<GridRun> pieces(float length) const;
 
   /// The nearest point within `radius`; of several at one distance the one with the smallest index.
   std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float radius) const;
 
  private:
-  struct Rod {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-  };
   struct Slot {
     std::uint64_t key = 0;
-    Rod rod;
+    GridRun rod;
   };
 
-  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-
-  /// Visits the points of a stretch of a rod up to `x_end` that lie in the ball.
-  template <class Visit>
-  void visit_rod(const Rod& rod, double x_end, const Eigen::Vector3f& center, float radius,
-                 const Visit& visit) const {
-    const float squared_radius = radius * radius;
-    for (std::size_t i = rod.begin; i < rod.end && x_[i] <= x_end; ++i) {
-      const float dx = x_[i] - center.x();
-      const float dy = y_[i] - center.y();
-      const float dz = z_[i] - center.z();
-      const float squared = dx * dx + dy * dy + dz * dz;
-      if (squared <= squared_radius) visit(index_[i], squared, dx, dy, dz);
-    }
+  std::uint32_t position(std::vector<float>::const_iterator x) const {
+    return static_cast<std::uint32_t>(x - x_.begin());
   }
-
   /// Clamped to the occupied range: nothing beyond it is worth a visit.
   std::int64_t row(double coordinate, float origin) const {
     const double cell = std::floor((coordinate - origin) / cell_);
     return static_cast<std::int64_t>(std::clamp(cell, -1.0, last_row_ + 1.0));
   }
-  Rod find(std::int64_t y, std::int64_t z) const;
+  GridRun find(std::int64_t y, std::int64_t z) const;
 
   float cell_ = 1;
   double last_row_ = 0;
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
-  std::vector<float> x_, y_, z_;
+  std::vector<float> x_, y_, z_;  ///< padded
   std::vector<std::uint32_t> index_;
   std::vector<Slot> slots_;  ///< open addressing, a power of two; an empty rod marks a free slot
 };

@@ -33,9 +33,12 @@ Cloud model_normals(const Cloud& mesh, const Scale& scale, const Params& params)
   if (params.source == "faces" || (params.source == "auto" && mesh.faces.rows() > 0))
     return keep_oriented(mesh, face_normals(mesh.points, wind_outward(mesh.points, mesh.faces)));
   const float smallest = static_cast<float>(params.radius) * scale.resolution;
-  const float radius = suitable_radius(mesh.points, smallest, kSpacings);
-  PointMatrix normals = plane_normals(mesh.points, radius, params.min_neighbours);
-  orient_outward(mesh.points, radius, normals);
+  const auto planes = suitable_planes(mesh.points, smallest, kSpacings);
+  PointMatrix normals = PointMatrix::Zero(mesh.points.rows(), 3);
+  if (planes) {
+    normals = planes->normals(params.min_neighbours);
+    orient_outward(mesh.points, planes->radius(), normals);
+  }
   return keep_oriented(mesh, normals);
 }
 

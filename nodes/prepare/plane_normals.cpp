@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "graph/parallel.hpp"
+#include "nodes/prepare/plane_moments.hpp"
 
 namespace posevote {
 namespace {
@@ -20,29 +21,13 @@ constexpr float kWiden = 1.25F;
 constexpr float kWidest = 4;  ///< x starting radius
 constexpr std::size_t kSample = 1000;
 
-/// Four floats in one register (GCC and Clang on any processor); Eigen's would go through memory.
-using Float4 [[gnu::vector_size(16)]] = float;
-
-/// Weighted moments of offsets from a query point, in units of the radius: the sum of w p p^T for
-/// p = (dx, dy, dz, 1), column by column. Single precision does: offsets are at most 1.
-struct Moments {
-  int count = 0;
-  Float4 x{}, y{}, z{}, one{};
-
-  void add(float dx, float dy, float dz, float w) {
-    ++count;
-    const Float4 weighted = w * Float4{dx, dy, dz, 1};
-    x += dx * weighted, y += dy * weighted, z += dz * weighted, one += weighted;
-  }
-
-  Eigen::Matrix3d covariance() const {
-    const double weight = static_cast<double>(one[3]);
-    Eigen::Matrix3d products;
-    products << x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2];
-    const Eigen::Vector3d mean = Eigen::Vector3d(one[0], one[1], one[2]) / weight;
-    return products / weight - mean * mean.transpose();
-  }
-};
+Eigen::Matrix3d covariance_of(const PlaneMoments& sum) {
+  Eigen::Matrix3d products;
+  products << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
+  const auto weight = static_cast<double>(sum.one);
+  const Eigen::Vector3d mean = Eigen::Vector3d(sum.x, sum.y, sum.z) / weight;
+  return products / weight - mean * mean.transpose();
+}
 
 PointMatrix centroids_of(const Voxels& voxels, const PointMatrix& points) {
   PointMatrix centroids(static_cast<Eigen::Index>(voxels.size()), 3);
@@ -51,10 +36,11 @@ PointMatrix centroids_of(const Voxels& voxels, const PointMatrix& points) {
   return centroids;
 }
 
-std::vector<float> sizes_of(const Voxels& voxels) {
-  std::vector<float> sizes(voxels.size());
-  for (std::size_t v = 0; v < sizes.size(); ++v) sizes[v] = static_cast<float>(voxels[v].size());
-  return sizes;
+std::vector<float> weights_of(const Voxels& voxels, const PointGrid& grid) {
+  std::vector<float> weights(voxels.size() + kGridPadding, 0);
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    weights[i] = static_cast<float>(voxels[grid.indices()[i]].size());
+  return weights;
 }
 
 /// Every n-th of `count` things, so that they are at most twice `kSample`.
@@ -82,9 +68,8 @@ float middle_diagonal(const std::vector<Eigen::Vector3f>& points) {
   return extent.stableNorm();
 }
 
-float typical_thickness(const PointMatrix& points, float radius) {
+float typical_thickness(const PlaneFitter& fitter) {
   constexpr int kFewest = 5;
-  const PlaneFitter fitter(points, radius);
   std::vector<float> thickness;
   for (std::size_t v = 0; v < fitter.size(); v += sample_step(fitter.size()))
     if (const PlaneFitter::Plane plane = fitter.fit(v, kFewest); !plane.normal.isZero())
@@ -110,24 +95,28 @@ PointMatrix distinct(const PointMatrix& points) {
 
 PlaneFitter::PlaneFitter(const PointMatrix& points, float radius)
     : radius_(radius),
+      point_count_(points.rows()),
       voxels_(group_by_voxel(points, radius * kMergePerRadius)),
       centroids_(centroids_of(voxels_, points)),
-      sizes_(sizes_of(voxels_)),
-      grid_(centroids_, radius) {}
+      grid_(centroids_, radius),
+      weights_(weights_of(voxels_, grid_)) {}
 
 PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, int min_neighbours) const {
-  Moments moments;
-  const float per_radius = 1 / radius_;
+  std::vector<GridRun> around;
   const Eigen::Vector3f center = centroids_.row(static_cast<Eigen::Index>(voxel));
-  grid_.for_each_offset_within(
-      center, radius_, [&](std::uint32_t index, float squared, float dx, float dy, float dz) {
-        // A little is left at the rim: where all neighbours sit there, they still make a plane.
-        const float weight = 1 - 0.999F * squared * per_radius * per_radius;
-        moments.add(dx * per_radius, dy * per_radius, dz * per_radius, weight * sizes_[index]);
-      });
-  if (moments.count < min_neighbours) return {};
+  grid_.for_each_run(center, center, radius_,
+                     [&around](const GridRun& run) { around.push_back(run); });
+  return fit(voxel, around, min_neighbours);
+}
+
+PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, const std::vector<GridRun>& around,
+                                    int min_neighbours) const {
+  const Eigen::Vector3f center = centroids_.row(static_cast<Eigen::Index>(voxel));
+  const PlaneMoments moments = plane_moments({grid_.x(), grid_.y(), grid_.z(), weights_.data()},
+                                             around.data(), around.size(), center.data(), radius_);
+  if (moments.count < static_cast<float>(min_neighbours)) return {};
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(moments.covariance());
+  solver.computeDirect(covariance_of(moments));
   const Eigen::Vector3d spread = solver.eigenvalues();
   if (!(spread(1) > 1e-4 * spread(2)) || !(spread(2) > 0)) return {};
   const Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
@@ -135,26 +124,37 @@ PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, int min_neighbours) const
   return {normal.normalized(), radius_ * static_cast<float>(std::sqrt(std::max(0.0, spread(0))))};
 }
 
-PointMatrix plane_normals(const PointMatrix& points, float radius, int min_neighbours) {
-  PointMatrix normals = PointMatrix::Zero(points.rows(), 3);
-  if (!(radius > 0)) return normals;
-  const PlaneFitter fitter(points, radius);
-  graph::parallel_for(fitter.size(), 256, [&](std::size_t voxel) {
-    const Eigen::Vector3f normal = fitter.fit(voxel, min_neighbours).normal;
-    for (const std::uint32_t point : fitter.members(voxel)) normals.row(point) = normal;
+PointMatrix PlaneFitter::normals(int min_neighbours) const {
+  PointMatrix normals = PointMatrix::Zero(point_count_, 3);
+  // Voxels side by side share one look into the grid: it would cost more than the sums.
+  const std::vector<GridRun> pieces = grid_.pieces(radius_);
+  graph::parallel_for(pieces.size(), 16, [&](std::size_t p) {
+    thread_local std::vector<GridRun> around;
+    around.clear();
+    Eigen::AlignedBox3f box;
+    for (std::uint32_t i = pieces[p].begin; i < pieces[p].end; ++i)
+      box.extend(centroids_.row(grid_.indices()[i]).transpose());
+    grid_.for_each_run(box.min(), box.max(), radius_,
+                       [](const GridRun& run) { around.push_back(run); });
+    for (std::uint32_t i = pieces[p].begin; i < pieces[p].end; ++i) {
+      const std::uint32_t voxel = grid_.indices()[i];
+      const Eigen::Vector3f normal = fit(voxel, around, min_neighbours).normal;
+      for (const std::uint32_t point : voxels_[voxel]) normals.row(point) = normal;
+    }
   });
   return normals;
 }
 
-float suitable_radius(const PointMatrix& points, float smallest, float spacings) {
+std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smallest,
+                                           float spacings) {
   const float spacing = point_spacing(points);
-  if (!(spacing > 0)) return 0;
+  if (!(spacing > 0)) return std::nullopt;
   const float start = std::max(smallest, spacings * spacing);
-  float radius = start;
-  while (radius * kWiden <= kWidest * start &&
-         typical_thickness(points, radius) > kThickest * radius)
-    radius *= kWiden;
-  return radius;
+  std::optional<PlaneFitter> planes(std::in_place, points, start);
+  while (planes->radius() * kWiden <= kWidest * start &&
+         typical_thickness(*planes) > kThickest * planes->radius())
+    planes.emplace(points, kWiden * planes->radius());
+  return planes;
 }
 
 float point_spacing(const PointMatrix& points) {

@@ -7,7 +7,9 @@
 // 16 / 28 at 7.5 mm, 13 / 13 / 15 / 18 at 15 mm. So the radius follows from the noise.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/prepare/grid.hpp"
@@ -27,30 +29,34 @@ class PlaneFitter {
   /// `radius` [m] > 0
   PlaneFitter(const PointMatrix& points, float radius);
 
+  float radius() const { return radius_; }
   /// How many voxels there are.
   std::size_t size() const { return voxels_.size(); }
-  /// The indices of the points in a voxel.
-  std::span<const std::uint32_t> members(std::size_t voxel) const { return voxels_[voxel]; }
 
   /// The plane around the points of a voxel. None where fewer than `min_neighbours` voxels, or
   /// points on a line, leave it open.
   Plane fit(std::size_t voxel, int min_neighbours) const;
 
+  /// The normal at every point of the cloud, sign arbitrary; (0, 0, 0) where there is none.
+  /// Parallel.
+  PointMatrix normals(int min_neighbours) const;
+
  private:
+  Plane fit(std::size_t voxel, const std::vector<GridRun>& around, int min_neighbours) const;
+
   float radius_;
+  Eigen::Index point_count_;
   Voxels voxels_;
   PointMatrix centroids_;
-  std::vector<float> sizes_;  // points in each voxel
-  PointGrid grid_;
+  PointGrid grid_;              ///< of the centroids
+  std::vector<float> weights_;  ///< in the grid's order: points in each voxel; padded
 };
 
-/// Plane normals of all points, sign arbitrary; (0, 0, 0) where there is none. Parallel.
-PointMatrix plane_normals(const PointMatrix& points, float radius, int min_neighbours);
-
-/// At least `smallest` and `spacings` times the points' own distance, and wide enough for the
-/// noise: the typical neighbourhood is at most a fifth of its radius thick, unless that takes more
-/// than four times the starting radius. 0 where all points coincide [m].
-float suitable_radius(const PointMatrix& points, float smallest, float spacings);
+/// With a radius of at least `smallest` and `spacings` times the points' own distance, and wide
+/// enough for the noise: the typical neighbourhood is at most a fifth of its radius thick, unless
+/// that takes more than four times the starting radius. None where all points coincide.
+std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smallest,
+                                           float spacings);
 
 /// The typical distance of a point to its nearest neighbour: the median over a sample [m].
 float point_spacing(const PointMatrix& points);

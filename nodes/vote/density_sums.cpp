@@ -3,10 +3,14 @@
 // are collected once and sorted by rotation cell; then each query reads only the rows of rotation
 // cells within its reach. Collecting costs a few ns for each of the ~20 others per query that it
 // finds, and makes the scans contiguous: that is what the wide instructions need.
+//
+// Of one set at its own votes, a cell meets only itself and the cells behind it, and what it
+// weighs at those is added there as well: half the work.
 #include "nodes/vote/density_sums.hpp"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "graph/parallel.hpp"
@@ -61,26 +65,40 @@ Box bounding_box(const SortedVotes& votes, std::uint32_t begin, std::uint32_t en
 /// The work of one thread; its buffers live as long as its range of batches.
 class BatchWorker {
  public:
-  BatchWorker(const SortedVotes& queries, const SortedVotes& others)
+  /// `queries` and `others` may be one and the same; then each pair is looked at once.
+  BatchWorker(const SortedVotes& queries, const SortedVotes& others,
+              std::vector<std::uint64_t>& sums)
       : queries_(queries),
         others_(others),
+        sums_(sums),
         search_(others),
         kernel_(make_kernel(queries.bandwidth)),
         reach_(make_rotation_reach(kernel_, queries.bandwidth)) {}
 
-  void run(const Batch& batch, std::vector<std::uint64_t>& sums) {
+  void run(const Batch& batch) {
     collect(batch);
     if (near_.empty()) return;
     choose_grid(batch.end - batch.begin);
     sort_by_rotation();
-    for (std::uint32_t i = batch.begin; i < batch.end; ++i) sums[i] = sum_at(queries_.votes[i]);
+    back_.assign(one_set() ? near_.size() + kScanPadding : 0, 0);
+    for (std::uint32_t i = batch.begin; i < batch.end; ++i) {
+      add(i, sum_at(queries_.votes[i]));
+      if ((i - batch.begin) % kMostScans == kMostScans - 1) give_back(batch);
+    }
+    give_back(batch);
   }
 
  private:
+  bool one_set() const { return &queries_ == &others_; }
+  /// Other batches may add to the same sum; the order of integers does not matter.
+  void add(std::uint32_t i, std::uint64_t units) {
+    std::atomic_ref(sums_[i]).fetch_add(units, std::memory_order_relaxed);
+  }
+  void give_back(const Batch& batch);
   void collect(const Batch& batch);
   void choose_grid(std::size_t query_count);
   void sort_by_rotation();
-  void copy_columns(const std::vector<std::uint32_t>& order);
+  void copy_columns();
   std::uint64_t sum_at(const SortedVote& query);
   void add_rows(const RotationBox& box);
 
@@ -92,6 +110,7 @@ class BatchWorker {
 
   const SortedVotes& queries_;
   const SortedVotes& others_;
+  std::vector<std::uint64_t>& sums_;
   CellSearch search_;
   Kernel kernel_;
   RotationReach reach_;
@@ -101,20 +120,32 @@ class BatchWorker {
   std::vector<std::uint32_t> order_;       ///< near_ by rotation cell
   std::vector<float> buffer_;              ///< behind columns_
   VoteColumns columns_{};
+  std::vector<std::uint32_t> back_;  ///< per column: what the queries weigh there, not yet given
   std::vector<ScanRange> ranges_;
 };
+
+/// Adds what the queries weigh at the votes of other cells; those of their own ask themselves.
+void BatchWorker::give_back(const Batch& batch) {
+  const std::uint32_t own_end = queries_.cell_begin[batch.cell + 1];
+  for (std::size_t i = 0; i + kScanPadding < back_.size(); ++i) {
+    if (back_[i] != 0 && order_[i] >= own_end) add(order_[i], back_[i]);
+    back_[i] = 0;
+  }
+}
 
 void BatchWorker::collect(const Batch& batch) {
   near_.clear();
   const std::vector<VoteRun>& runs = search_.around(queries_.cells[batch.cell]);
+  // Of one set, what lies before this cell has met it already.
+  const std::uint32_t first = one_set() ? queries_.cell_begin[batch.cell] : 0;
   std::size_t total = 0;
-  for (const VoteRun& run : runs) total += run.end - run.begin;
+  for (const VoteRun& run : runs) total += run.end - std::min(run.end, std::max(run.begin, first));
   if (total == 0) return;
   const Box box = bounding_box(queries_, batch.begin, batch.end);
   near_.resize(total);
   std::size_t count = 0;
   for (const VoteRun& run : runs)
-    for (std::uint32_t i = run.begin; i < run.end; ++i) {
+    for (std::uint32_t i = std::max(run.begin, first); i < run.end; ++i) {
       near_[count] = i;
       count += box.squared_distance(others_.votes[i].point) <= kernel_.max_dt2;
     }
@@ -131,7 +162,10 @@ void BatchWorker::choose_grid(std::size_t query_count) {
 }
 
 void BatchWorker::sort_by_rotation() {
-  if (grid_ == 0) return copy_columns(near_);
+  if (grid_ == 0) {
+    order_ = near_;
+    return copy_columns();
+  }
   const auto cell_of = [this](std::uint32_t i) {
     const RotationCode code = others_.votes[i].code;
     return rotation_cell(code >> 24U, coarse((code >> 16U) & 255U), coarse((code >> 8U) & 255U),
@@ -143,15 +177,15 @@ void BatchWorker::sort_by_rotation() {
   for (std::size_t c = 2; c < cell_begin_.size(); ++c) cell_begin_[c] += cell_begin_[c - 1];
   order_.resize(near_.size());
   for (const std::uint32_t i : near_) order_[cell_begin_[cell_of(i) + 1]++] = i;
-  copy_columns(order_);
+  copy_columns();
 }
 
-void BatchWorker::copy_columns(const std::vector<std::uint32_t>& order) {
-  const std::size_t stride = order.size() + kScanPadding;
+void BatchWorker::copy_columns() {
+  const std::size_t stride = order_.size() + kScanPadding;
   if (buffer_.size() < 7 * stride) buffer_.resize(7 * stride);
   float* column = buffer_.data();
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const VotePoint& p = others_.votes[order[i]].point;
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const VotePoint& p = others_.votes[order_[i]].point;
     column[i] = p.tx;
     column[stride + i] = p.ty;
     column[2 * stride + i] = p.tz;
@@ -179,7 +213,8 @@ std::uint64_t BatchWorker::sum_at(const SortedVote& query) {
     const RotationBoxes boxes = rotation_boxes(query.point, reach_);
     for (int b = 0; b < boxes.count; ++b) add_rows(boxes.items[static_cast<std::size_t>(b)]);
   }
-  return scan_votes(kernel_, columns_, query.point, ranges_.data(), ranges_.size());
+  return scan_votes(kernel_, columns_, query.point, ranges_.data(), ranges_.size(),
+                    one_set() ? back_.data() : nullptr);
 }
 
 void BatchWorker::add_rows(const RotationBox& box) {
@@ -200,10 +235,14 @@ std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const Sorted
   std::vector<std::uint64_t> sums(queries.size(), 0);
   const std::vector<Batch> batches = make_batches(queries);
   graph::parallel_ranges(batches.size(), 1, [&](std::size_t begin, std::size_t end) {
-    BatchWorker worker(queries, others);
-    for (std::size_t b = begin; b < end; ++b) worker.run(batches[b], sums);
+    BatchWorker worker(queries, others, sums);
+    for (std::size_t b = begin; b < end; ++b) worker.run(batches[b]);
   });
   return sums;
+}
+
+std::vector<std::uint64_t> density_sums(const SortedVotes& votes) {
+  return density_sums(votes, votes);
 }
 
 }  // namespace posevote

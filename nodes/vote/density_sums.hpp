@@ -9,8 +9,11 @@
 
 namespace posevote {
 
-/// For every query vote, in units of 2^-25 and in the order of `queries`: the sum of the weights of
-/// its neighbours among `others`. Both sets have the same bandwidth. Parallel over the queries.
+/// At every query the sum of the weights of its neighbours among `others`, in units of 2^-25 and in
+/// the order of `queries`. Both sets have the same bandwidth. Parallel over the queries.
 std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const SortedVotes& others);
+
+/// The same of one set at its own votes. Each pair is looked at once.
+std::vector<std::uint64_t> density_sums(const SortedVotes& votes);
 
 }  // namespace posevote

@@ -48,7 +48,7 @@ Bandwidth PoseIndex::bandwidth() const { return data_->sorted.bandwidth; }
 
 std::vector<double> PoseIndex::densities() const {
   const SortedVotes& sorted = data_->sorted;
-  const std::vector<std::uint64_t> sums = density_sums(sorted, sorted);
+  const std::vector<std::uint64_t> sums = density_sums(sorted);
   std::vector<double> density(data_->vote_count, 0);
   for (std::size_t i = 0; i < sums.size(); ++i) density[sorted.numbers[i]] = density_of(sums[i]);
   return density;
@@ -64,7 +64,7 @@ void PoseIndex::subtract(const std::vector<std::uint32_t>& removed, const std::v
     if (!alive[v]) density[v] = 0;
   // The cost is that of queries times others: sum what is fewer, what went or what stayed.
   if (removed.size() > queries.size()) {
-    const std::vector<std::uint64_t> sums = density_sums(queries, queries);
+    const std::vector<std::uint64_t> sums = density_sums(queries);
     for (std::size_t i = 0; i < sums.size(); ++i) density[queries.numbers[i]] = density_of(sums[i]);
     return;
   }

@@ -32,49 +32,33 @@ HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2) {
   return hn::BitCast(Units(), hn::ConvertTo(hn::RebindToSigned<Floats>(), units));
 }
 
-/// Squared distances of neighbours, packed. Few votes that are scanned are neighbours: to weigh
-/// them apart, lane by lane full, spares a branch per block that no processor can foresee.
-class Neighbours {
+/// Sums of weights, lane by lane.
+class Total {
  public:
-  explicit Neighbours(const Kernel& kernel) : kernel_(kernel) {}
+  HWY_INLINE Total() : lanes_(hn::Zero(Units())) {}
 
-  HWY_INLINE void add(F dt2, F e2, hn::Mask<Floats> near) {
-    const Floats d;
-    hn::StoreU(hn::Compress(dt2, near), d, dt2_ + count_);
-    hn::StoreU(hn::Compress(e2, near), d, e2_ + count_);
-    count_ += hn::CountTrue(d, near);
-    if (HWY_UNLIKELY(count_ > kBlocks * hn::Lanes(d))) weigh();
+  HWY_INLINE void add(U weights) {
+    lanes_ = hn::Add(lanes_, weights);
+    if (HWY_UNLIKELY(++count_ == kMostScans)) spill();
   }
 
-  HWY_INLINE std::uint64_t total() {
-    weigh();
-    return total_;
+  HWY_INLINE std::uint64_t value() {
+    spill();
+    return value_;
   }
 
  private:
-  static constexpr std::size_t kBlocks = 32;  // 33 x 2^25 fits into a lane of 32 bits
-
-  HWY_INLINE void weigh() {
-    const Floats d;
-    hn::StoreU(hn::Zero(d), d, dt2_ + count_);  // the last block's spare lanes are weighed too
-    hn::StoreU(hn::Zero(d), d, e2_ + count_);
-    U sum = hn::Zero(Units());
-    for (std::size_t i = 0; i < count_; i += hn::Lanes(d)) {
-      const auto valid = hn::FirstN(Units(), std::min(hn::Lanes(d), count_ - i));
-      const U weights = weight_units(kernel_, hn::Load(d, dt2_ + i), hn::Load(d, e2_ + i));
-      sum = hn::Add(sum, hn::IfThenElseZero(valid, weights));
-    }
+  HWY_INLINE void spill() {
     HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
-    hn::Store(sum, Units(), lanes);
-    for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) total_ += lanes[i];
+    hn::Store(lanes_, Units(), lanes);
+    for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) value_ += lanes[i];
+    lanes_ = hn::Zero(Units());
     count_ = 0;
   }
 
-  const Kernel& kernel_;
-  std::uint64_t total_ = 0;
-  std::size_t count_ = 0;
-  HWY_ALIGN float dt2_[(kBlocks + 2) * HWY_LANES(float)];
-  HWY_ALIGN float e2_[(kBlocks + 2) * HWY_LANES(float)];
+  U lanes_;
+  std::uint32_t count_ = 0;
+  std::uint64_t value_ = 0;
 };
 
 /// (a - b)^2
@@ -99,34 +83,47 @@ class Query {
     max_e2_ = hn::Set(d, k.max_e2);
   }
 
-  /// Compares with the votes from i on, where `valid`.
-  HWY_INLINE void compare(const VoteColumns& c, std::size_t i, hn::Mask<Floats> valid,
-                          Neighbours& neighbours) const {
+  /// The weights of the votes from i on, where `valid`; 0 for those that are not near.
+  HWY_INLINE U weights(const Kernel& kernel, const VoteColumns& c, std::size_t i,
+                       hn::Mask<Floats> valid) const {
     const F xy = hn::Add(squared_difference(tx_, c.tx + i), squared_difference(ty_, c.ty + i));
     const F dt2 = hn::Add(xy, squared_difference(tz_, c.tz + i));
     const F wx = hn::Add(squared_difference(qw_, c.qw + i), squared_difference(qx_, c.qx + i));
     const F yz = hn::Add(squared_difference(qy_, c.qy + i), squared_difference(qz_, c.qz + i));
     const F e2 = hn::Add(wx, yz);
     const auto near = hn::And(hn::Le(dt2, max_dt2_), hn::Le(e2, max_e2_));
-    neighbours.add(dt2, e2, hn::And(near, valid));
+    return hn::IfThenElseZero(hn::RebindMask(Units(), hn::And(near, valid)),
+                              weight_units(kernel, dt2, e2));
   }
 
  private:
   F tx_, ty_, tz_, qw_, qx_, qy_, qz_, max_dt2_, max_e2_;
 };
 
-std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
-                   const ScanRange* ranges, std::size_t range_count) {
+template <bool kBack>
+HWY_INLINE std::uint64_t scan_ranges(const Kernel& kernel, const VoteColumns& columns,
+                                     const VotePoint& point, const ScanRange* ranges,
+                                     std::size_t range_count, std::uint32_t* back) {
   const Floats d;
+  const Units units;
   const std::size_t lanes = hn::Lanes(d);
-  Neighbours neighbours(kernel);
+  Total total;
   for (std::size_t r = 0; r < range_count; ++r) {
     const Query query(kernel, point, ranges[r].sign);
     const std::size_t end = ranges[r].end;
-    for (std::size_t i = ranges[r].begin; i < end; i += lanes)
-      query.compare(columns, i, hn::FirstN(d, std::min(lanes, end - i)), neighbours);
+    for (std::size_t i = ranges[r].begin; i < end; i += lanes) {
+      const U weights = query.weights(kernel, columns, i, hn::FirstN(d, std::min(lanes, end - i)));
+      total.add(weights);
+      if (kBack) hn::StoreU(hn::Add(hn::LoadU(units, back + i), weights), units, back + i);
+    }
   }
-  return neighbours.total();
+  return total.value();
+}
+
+std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
+                   const ScanRange* ranges, std::size_t range_count, std::uint32_t* back) {
+  return back == nullptr ? scan_ranges<false>(kernel, columns, point, ranges, range_count, back)
+                         : scan_ranges<true>(kernel, columns, point, ranges, range_count, back);
 }
 
 }  // namespace posevote::HWY_NAMESPACE
@@ -138,8 +135,8 @@ namespace posevote {
 HWY_EXPORT(scan);
 
 std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         const ScanRange* ranges, std::size_t range_count) {
-  return HWY_DYNAMIC_DISPATCH(scan)(kernel, columns, query, ranges, range_count);
+                         const ScanRange* ranges, std::size_t range_count, std::uint32_t* back) {
+  return HWY_DYNAMIC_DISPATCH(scan)(kernel, columns, query, ranges, range_count, back);
 }
 
 }  // namespace posevote

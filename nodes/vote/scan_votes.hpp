@@ -24,8 +24,12 @@ struct ScanRange {
 
 /// The sum over all votes of the ranges of their weights at the query, in units of 2^-25, where a
 /// vote counts if it is near under its range's sign. Equals kernel_units bit for bit on every
-/// processor.
+/// processor. Where `back` is not null, each vote's weight is added to its place there, too, padded
+/// as the columns are: the kernel is symmetric, and what a vote weighs at the query the query
+/// weighs at the vote. 2^32 holds kMostScans such weights.
 std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         const ScanRange* ranges, std::size_t range_count);
+                         const ScanRange* ranges, std::size_t range_count, std::uint32_t* back);
+
+constexpr std::uint32_t kMostScans = 127;
 
 }  // namespace posevote

@@ -4,7 +4,6 @@
 // (METHOD.md, section 3). The textbook version, a k-d tree on the translations and a linear
 // rotation test, runs on a sample of the votes beside it.
 #include <benchmark/benchmark.h>
-#include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
@@ -13,6 +12,7 @@
 #include <random>
 
 #include "nodes/vote/pose_index.hpp"
+#include "tests/support/instruction_set.hpp"
 
 namespace posevote {
 namespace {
@@ -101,12 +101,9 @@ void density(benchmark::State& state) {
 
 /// On a processor that has nothing newer than AVX2.
 void density_avx2(benchmark::State& state) {
-  if ((hwy::SupportedTargets() & HWY_AVX2) == 0) return state.SkipWithError("no AVX2 here");
-  hwy::SetSupportedTargetsForTest(HWY_AVX2);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  const test::OnInstructionSet there(HWY_AVX2);
+  if (!there) return state.SkipWithError("no AVX2 here");
   density(state);
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 /// Takes away the first 30 % of the correspondences.

@@ -62,8 +62,8 @@ TEST_CASE("estimate_normals finds those of a sphere, toward the sensor", "[prepa
 }
 
 TEST_CASE("estimate_normals widens its neighbourhoods with the noise", "[prepare]") {
-  CHECK(suitable_radius(sphere_scan().points, 0.0045F, 3) < 0.006F);
-  CHECK(suitable_radius(sphere_scan(0.0075F).points, 0.0045F, 3) > 0.010F);
+  CHECK(suitable_planes(sphere_scan().points, 0.0045F, 3)->radius() < 0.006F);
+  CHECK(suitable_planes(sphere_scan(0.0075F).points, 0.0045F, 3)->radius() > 0.010F);
   CHECK(error_of(oriented(sphere_scan(0.0025F))) < 5);
   CHECK(error_of(oriented(sphere_scan(0.0075F))) < 9);
 }
@@ -173,8 +173,7 @@ TEST_CASE("estimate_normals on the Bunny with 3 % noise", "[prepare]") {
   const PointMatrix truth = face_normals(scan.points, wind_outward(scan.points, scan.faces));
   scan.points = test::shaken(scan.points, 0.0075F);
   scan.normals = truth;  // carried along to tell which points remain; not used
-  const PointMatrix planes =
-      plane_normals(scan.points, suitable_radius(scan.points, 0.0045F, 6), 5);
+  const PointMatrix planes = suitable_planes(scan.points, 0.0045F, 6)->normals(5);
   double sum = 0;
   int count = 0;
   for (Eigen::Index i = 0; i < truth.rows(); ++i) {

@@ -2,14 +2,13 @@
 // The kernel against the formulas of the paper, and the vector code against it, bit for bit.
 #include "nodes/vote/kernel.hpp"
 
-#include <hwy/targets.h>
-
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 #include <vector>
 
 #include "nodes/vote/scan_votes.hpp"
+#include "tests/support/instruction_set.hpp"
 #include "tests/support/votes.hpp"
 
 namespace posevote {
@@ -60,11 +59,8 @@ TEST_CASE("the kernel follows the paper, is cut at both bandwidths, and is symme
 }
 
 TEST_CASE("scanning equals the kernel bit for bit, on every instruction set", "[vote]") {
-  const auto best = hwy::SupportedTargets();
-  const auto target = GENERATE(HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_SSSE3);
-  if ((best & target) == 0) return;
-  hwy::SetSupportedTargetsForTest(target);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
   std::mt19937 random(3);
   const Bandwidth bandwidth{0.01F, 22.5F * kDegree};
   const Kernel kernel = make_kernel(bandwidth);
@@ -86,13 +82,17 @@ TEST_CASE("scanning equals the kernel bit for bit, on every instruction set", "[
                        votes.qx[v], votes.qy[v], votes.qz[v]};
     };
     std::uint64_t expected = 0;
-    for (std::uint32_t v = begin; v < end; ++v) expected += kernel_units(kernel, at(i), at(v));
-    REQUIRE(scan_votes(kernel, pointers, at(i), ranges, 2) == expected);
+    std::vector<std::uint32_t> back(6000 + kScanPadding, 0), expected_back = back;
+    for (std::uint32_t v = begin; v < end; ++v) {
+      expected_back[v] = kernel_units(kernel, at(i), at(v));
+      expected += expected_back[v];
+    }
+    REQUIRE(scan_votes(kernel, pointers, at(i), ranges, 2, nullptr) == expected);
+    REQUIRE(scan_votes(kernel, pointers, at(i), ranges, 2, back.data()) == expected);
+    REQUIRE(back == expected_back);
   }
   const ScanRange all{0, 6000, 1};
-  CHECK(scan_votes(kernel, pointers, vote({0, 0, 0}, {1, 0, 0, 0}), &all, 0) == 0);
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  CHECK(scan_votes(kernel, pointers, vote({0, 0, 0}, {1, 0, 0, 0}), &all, 0, nullptr) == 0);
 }
 
 }  // namespace

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiled once per instruction set by Highway; the best is chosen when the program runs. Raw
+// pointers only: a type shared with code built for another instruction set must not be instantiated
+// here.
+#include "nodes/describe/point_pair_sums.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "nodes/describe/point_pair_sums.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace posevote::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kGridPadding>;
+using Ints = hn::RebindToSigned<Floats>;
+using F = hn::Vec<Floats>;
+
+constexpr std::size_t kBlock = 64;                    // pairs that are weighed together
+constexpr std::size_t kRoom = kBlock + kGridPadding;  // Compress may write a whole vector
+
+/// The angle of a cosine, over pi: Abramowitz and Stegun 4.4.45, at most 7e-5 rad off. The cosine
+/// may have rounded beyond one.
+HWY_INLINE F angle_over_pi(F cosine) {
+  const Floats d;
+  const F one = hn::Set(d, 1);
+  const F c = hn::Min(hn::Abs(cosine), one);
+  F polynomial = hn::Sub(hn::Set(d, 0.0742610F), hn::Mul(c, hn::Set(d, 0.0187293F)));
+  polynomial = hn::Add(hn::Set(d, -0.2121144F), hn::Mul(c, polynomial));
+  polynomial = hn::Add(hn::Set(d, 1.5707288F), hn::Mul(c, polynomial));
+  const F acute = hn::Mul(hn::Sqrt(hn::Sub(one, c)), polynomial);
+  const F share = hn::Mul(hn::Set(d, 0.318309886F), acute);
+  return hn::IfThenElse(hn::Lt(cosine, hn::Zero(d)), hn::Sub(one, share), share);
+}
+
+HWY_INLINE F dot(F ax, F ay, F az, F bx, F by, F bz) {
+  return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
+}
+
+/// Collects neighbours until a block is full, then adds their pairs.
+class Pairs {
+ public:
+  HWY_INLINE Pairs(const PairSource& source, PointPairSums& pairs) : pairs_(pairs) {
+    const Floats d;
+    nx_ = hn::Set(d, source.normal[0]);
+    ny_ = hn::Set(d, source.normal[1]);
+    nz_ = hn::Set(d, source.normal[2]);
+    bins_per_metre_ = hn::Set(d, PointPairSums::kDistanceBins / source.radius);
+  }
+
+  HWY_INLINE void add(F x, F y, F z, F other_x, F other_y, F other_z, hn::Mask<Floats> chosen) {
+    const Floats d;
+    hn::StoreU(hn::Compress(x, chosen), d, x_ + filled_);
+    hn::StoreU(hn::Compress(y, chosen), d, y_ + filled_);
+    hn::StoreU(hn::Compress(z, chosen), d, z_ + filled_);
+    hn::StoreU(hn::Compress(other_x, chosen), d, other_x_ + filled_);
+    hn::StoreU(hn::Compress(other_y, chosen), d, other_y_ + filled_);
+    hn::StoreU(hn::Compress(other_z, chosen), d, other_z_ + filled_);
+    filled_ += hn::CountTrue(d, chosen);
+    if (filled_ > kBlock) flush();
+  }
+
+  HWY_INLINE int finish() {
+    flush();
+    return count_;
+  }
+
+ private:
+  void flush() {
+    const Floats d;
+    for (std::size_t i = 0; i < filled_; i += hn::Lanes(d)) weigh(i);
+    scatter();
+    count_ += static_cast<int>(filled_);
+    filled_ = 0;
+  }
+
+  /// Bins and weights of the pairs from i on; what lies behind the last is weighed, not used.
+  HWY_INLINE void weigh(std::size_t i) {
+    const Floats d;
+    const F x = hn::Load(d, x_ + i), y = hn::Load(d, y_ + i), z = hn::Load(d, z_ + i);
+    const F ox = hn::Load(d, other_x_ + i), oy = hn::Load(d, other_y_ + i);
+    const F oz = hn::Load(d, other_z_ + i);
+    const F distance = hn::Max(hn::Sqrt(dot(x, y, z, x, y, z)), hn::Set(d, 1e-20F));
+    const F cos_first = hn::Div(dot(x, y, z, nx_, ny_, nz_), distance);
+    const F cos_second = hn::Div(dot(x, y, z, ox, oy, oz), distance);
+    const F cos_normals = dot(ox, oy, oz, nx_, ny_, nz_);
+    // The second normal against (d x n) / |d x n|, the direction around the first normal.
+    const F triple =
+        dot(hn::Sub(hn::Mul(y, nz_), hn::Mul(z, ny_)), hn::Sub(hn::Mul(z, nx_), hn::Mul(x, nz_)),
+            hn::Sub(hn::Mul(x, ny_), hn::Mul(y, nx_)), ox, oy, oz);
+    const F squared_sine = hn::Sub(hn::Set(d, 1), hn::Mul(cos_first, cos_first));
+    const F sine = hn::Sqrt(hn::Max(squared_sine, hn::Set(d, 1e-12F)));
+    const F row_position = hn::Add(hn::Mul(distance, bins_per_metre_), hn::Set(d, 0.5F));
+    const auto row = floor_at_most(row_position, PointPairSums::kDistanceBins);
+    const F far = hn::Sub(row_position, hn::ConvertTo(d, row));
+    place(0, i, row, far, angle_over_pi(cos_first));
+    place(1, i, row, far, angle_over_pi(cos_second));
+    place(2, i, row, far, angle_over_pi(cos_normals));
+    place(3, i, row, far, angle_over_pi(hn::Div(triple, hn::Mul(distance, sine))));
+  }
+
+  HWY_INLINE hn::Vec<Ints> floor_at_most(F position, int most) const {
+    return hn::Min(hn::ConvertTo(Ints(), position), hn::Set(Ints(), most));
+  }
+
+  HWY_INLINE void place(int angle, std::size_t i, hn::Vec<Ints> row, F far, F share) {
+    const Floats d;
+    const Ints n;
+    const F one = hn::Set(d, 1);
+    const F position =
+        hn::Add(hn::Mul(share, hn::Set(d, PointPairSums::kAngleBins)), hn::Set(d, 0.5F));
+    const auto column = floor_at_most(position, PointPairSums::kAngleBins);
+    const F up = hn::Sub(position, hn::ConvertTo(d, column));
+    const F near = hn::Sub(one, far), down = hn::Sub(one, up);
+    constexpr int kColumns = PointPairSums::kAngleBins + 1, kAngles = PointPairSums::kAngles;
+    const auto entry = hn::Add(hn::Mul(row, hn::Set(n, kAngles * kColumns)),
+                               hn::Add(column, hn::Set(n, angle * kColumns)));
+    hn::Store(entry, n, entry_[angle] + i);
+    hn::StoreInterleaved4(hn::Mul(near, down), hn::Mul(near, up), hn::Mul(far, down),
+                          hn::Mul(far, up), d, weight_[angle] + 4 * i);
+  }
+
+  HWY_INLINE void scatter() {
+    float* sums = &pairs_.sums[0][0][0][0];
+    for (std::size_t i = 0; i < filled_; ++i)
+      for (int angle = 0; angle < PointPairSums::kAngles; ++angle) {
+        float* entry = sums + 4 * static_cast<std::size_t>(entry_[angle][i]);
+        const float* weight = weight_[angle] + 4 * i;
+        for (std::size_t k = 0; k < 4; ++k) entry[k] += weight[k];
+      }
+  }
+
+  PointPairSums& pairs_;
+  F nx_, ny_, nz_, bins_per_metre_;
+  std::size_t filled_ = 0;
+  int count_ = 0;
+  HWY_ALIGN float x_[kRoom], y_[kRoom], z_[kRoom];
+  HWY_ALIGN float other_x_[kRoom], other_y_[kRoom], other_z_[kRoom];
+  HWY_ALIGN std::int32_t entry_[PointPairSums::kAngles][kRoom];
+  HWY_ALIGN float weight_[PointPairSums::kAngles][4 * kRoom];
+};
+
+int add_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run_count,
+              const PairSource& source, PointPairSums& sums) {
+  const Floats d;
+  const F px = hn::Set(d, source.point[0]), py = hn::Set(d, source.point[1]);
+  const F pz = hn::Set(d, source.point[2]);
+  const F nx = hn::Set(d, source.normal[0]), ny = hn::Set(d, source.normal[1]);
+  const F nz = hn::Set(d, source.normal[2]);
+  const F squared_radius = hn::Set(d, source.radius * source.radius);
+  const F min_facing = hn::Set(d, source.min_facing);
+  Pairs pairs(source, sums);
+  for (std::size_t r = 0; r < run_count; ++r)
+    for (std::size_t i = runs[r].begin; i < runs[r].end; i += hn::Lanes(d)) {
+      const F x = hn::Sub(hn::LoadU(d, cloud.x + i), px);
+      const F y = hn::Sub(hn::LoadU(d, cloud.y + i), py);
+      const F z = hn::Sub(hn::LoadU(d, cloud.z + i), pz);
+      const F squared = dot(x, y, z, x, y, z);
+      const auto valid = hn::FirstN(d, std::min(hn::Lanes(d), runs[r].end - i));
+      const auto near = hn::And(hn::Le(squared, squared_radius), hn::Gt(squared, hn::Zero(d)));
+      const F ox = hn::LoadU(d, cloud.nx + i), oy = hn::LoadU(d, cloud.ny + i);
+      const F oz = hn::LoadU(d, cloud.nz + i);
+      const auto facing = hn::Ge(dot(ox, oy, oz, nx, ny, nz), min_facing);
+      pairs.add(x, y, z, ox, oy, oz, hn::And(hn::And(near, facing), valid));
+    }
+  return pairs.finish();
+}
+
+}  // namespace posevote::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace posevote {
+
+HWY_EXPORT(add_pairs);
+
+int add_point_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run_count,
+                    const PairSource& source, PointPairSums& pairs) {
+  return HWY_DYNAMIC_DISPATCH(add_pairs)(cloud, runs, run_count, source, pairs);
+}
+
+}  // namespace posevote
+#endif
