@@ -125,12 +125,16 @@ class Pairs {
   }
 
   HWY_INLINE void scatter() {
+    const hn::CappedTag<float, 4> four;
     float* sums = &pairs_.sums[0][0][0][0];
     for (std::size_t i = 0; i < filled_; ++i)
       for (int angle = 0; angle < PointPairSums::kAngles; ++angle) {
         float* entry = sums + 4 * static_cast<std::size_t>(entry_[angle][i]);
         const float* weight = weight_[angle] + 4 * i;
-        for (std::size_t k = 0; k < 4; ++k) entry[k] += weight[k];
+        for (std::size_t k = 0; k < 4; k += hn::Lanes(four)) {
+          const auto sum = hn::Add(hn::LoadU(four, entry + k), hn::Load(four, weight + k));
+          hn::StoreU(sum, four, entry + k);
+        }
       }
   }
 

@@ -51,6 +51,8 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
   for (std::size_t i = 0; i < entries.size(); ++i)
     rods += i == 0 || entries[i].key != entries[i - 1].key ? 1 : 0;
   slots_.resize(std::bit_ceil(2 * rods));
+  for (auto* column : {&x_, &y_, &z_}) column->reserve(entries.size() + kGridPadding);
+  index_.reserve(entries.size());
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin;
     for (; end < entries.size() && entries[end].key == entries[begin].key; ++end) {

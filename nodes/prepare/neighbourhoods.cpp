@@ -21,6 +21,11 @@ std::uint64_t key_of(const std::array<std::int64_t, 3>& cube) {
   return key;
 }
 
+/// Where to look for a cube first. Cubes that follow one another along z share cache lines.
+std::size_t place_of(std::uint64_t key, std::size_t mask) {
+  return (scatter(key >> kBits, mask) + key) & mask;
+}
+
 }  // namespace
 
 Neighbourhoods::Neighbourhoods(const PointMatrix& points, float reach) : reach_(reach) {
@@ -89,14 +94,14 @@ void Neighbourhoods::for_each_neighbour(const Visit& visit) const {
 
 const Neighbourhoods::Slot* Neighbourhoods::find(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t at = scatter(key, mask); slots_[at].end != 0; at = (at + 1) & mask)
+  for (std::size_t at = place_of(key, mask); slots_[at].end != 0; at = (at + 1) & mask)
     if (slots_[at].key == key) return &slots_[at];
   return nullptr;
 }
 
 Neighbourhoods::Slot& Neighbourhoods::claim(std::uint64_t key) {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t at = scatter(key, mask);
+  std::size_t at = place_of(key, mask);
   while (slots_[at].end != 0 && slots_[at].key != key) at = (at + 1) & mask;
   if (slots_[at].end != 0) return slots_[at];
   if (2 * (claimed_ + 1) > slots_.size()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/prepare/plane_normals.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +27,43 @@ Eigen::Matrix3d covariance_of(const PlaneMoments& sum) {
   const auto weight = static_cast<double>(sum.one);
   const Eigen::Vector3d mean = Eigen::Vector3d(sum.x, sum.y, sum.z) / weight;
   return products / weight - mean * mean.transpose();
+}
+
+/// How points spread about their mean, as far as a plane through them asks.
+struct Spread {
+  double least = 0;        ///< smallest eigenvalue of the covariance
+  Eigen::Vector3d across;  ///< its eigenvector, not of unit length; 0 where points lie on a line
+};
+
+/// Newton's iteration from 0 rises to the smallest root of the characteristic polynomial, which has
+/// none below: five steps for a plane, where Eigen's closed form takes four times as long. A double
+/// root is approached by halves, but then no direction is the normal.
+Spread spread_of(const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix3d& m = covariance;
+  const double xy = m(0, 1) * m(0, 1), xz = m(0, 2) * m(0, 2), yz = m(1, 2) * m(1, 2);
+  const double trace = m(0, 0) + m(1, 1) + m(2, 2);
+  const double minors = m(0, 0) * m(1, 1) - xy + m(0, 0) * m(2, 2) - xz + m(1, 1) * m(2, 2) - yz;
+  const double product = m(0, 0) * (m(1, 1) * m(2, 2) - yz) - xy * m(2, 2) - xz * m(1, 1) +
+                         2 * m(0, 1) * m(0, 2) * m(1, 2);
+  double root = 0;
+  constexpr int kMostSteps = 40;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double value = ((trace - root) * root - minors) * root + product;
+    const double slope = minors - (2 * trace - 3 * root) * root;
+    const double rise = value / slope;
+    if (!(rise > 1e-12 * trace)) break;
+    root += rise;
+  }
+  Spread spread{root, Eigen::Vector3d::Zero()};
+  // Of the two other eigenvalues the smaller must be more than 1e-4 of the larger.
+  const double sum = trace - root, others = minors - root * sum;
+  if (!(others > 1e-4 * sum * sum)) return spread;
+  const Eigen::Matrix3d left = m - root * Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d across = left.col(i).cross(left.col((i + 1) % 3));
+    if (across.squaredNorm() > spread.across.squaredNorm()) spread.across = across;
+  }
+  return spread;
 }
 
 PointMatrix centroids_of(const Voxels& voxels, const PointMatrix& points) {
@@ -77,14 +114,35 @@ float typical_thickness(const PlaneFitter& fitter) {
   return median(std::move(thickness));
 }
 
-/// The finite points, each place once.
-PointMatrix distinct(const PointMatrix& points) {
-  std::vector<std::array<float, 3>> places;
-  places.reserve(static_cast<std::size_t>(points.rows()));
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
+using Place = std::array<float, 3>;
+
+/// Every `step`-th of the points, those that are finite.
+std::vector<Place> places_of(const PointMatrix& points, std::size_t step) {
+  std::vector<Place> places;
+  places.reserve(static_cast<std::size_t>(points.rows()) / step + 1);
+  for (Eigen::Index i = 0; i < points.rows(); i += static_cast<Eigen::Index>(step))
     if (points.row(i).allFinite()) places.push_back({points(i, 0), points(i, 1), points(i, 2)});
+  return places;
+}
+
+void keep_one_each(std::vector<Place>& places) {
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
+}
+
+/// Whether a sample holds hardly any place twice.
+bool seem_distinct(const PointMatrix& points) {
+  std::vector<Place> sample =
+      places_of(points, sample_step(static_cast<std::size_t>(points.rows())));
+  const std::size_t all = sample.size();
+  keep_one_each(sample);
+  return 20 * sample.size() >= 19 * all;
+}
+
+/// The finite points, each place once.
+PointMatrix distinct(const PointMatrix& points) {
+  std::vector<Place> places = places_of(points, 1);
+  keep_one_each(places);
   PointMatrix once(static_cast<Eigen::Index>(places.size()), 3);
   for (std::size_t i = 0; i < places.size(); ++i)
     once.row(static_cast<Eigen::Index>(i)) = Eigen::RowVector3f::Map(places[i].data());
@@ -115,13 +173,11 @@ PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, const std::vector<GridRun
   const PlaneMoments moments = plane_moments({grid_.x(), grid_.y(), grid_.z(), weights_.data()},
                                              around.data(), around.size(), center.data(), radius_);
   if (moments.count < static_cast<float>(min_neighbours)) return {};
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance_of(moments));
-  const Eigen::Vector3d spread = solver.eigenvalues();
-  if (!(spread(1) > 1e-4 * spread(2)) || !(spread(2) > 0)) return {};
-  const Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
-  if (!(std::abs(normal.norm() - 1) < 0.01F)) return {};
-  return {normal.normalized(), radius_ * static_cast<float>(std::sqrt(std::max(0.0, spread(0))))};
+  const Spread spread = spread_of(covariance_of(moments));
+  const double length = spread.across.norm();
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  return {(spread.across / length).cast<float>(),
+          radius_ * static_cast<float>(std::sqrt(spread.least))};
 }
 
 PointMatrix PlaneFitter::normals(int min_neighbours) const {
@@ -158,11 +214,13 @@ std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smal
 }
 
 float point_spacing(const PointMatrix& points) {
-  const PointMatrix places = distinct(points);
+  // A place that holds thousands of points must not make the sample; few scans have one.
+  const PointMatrix once = seem_distinct(points) ? PointMatrix() : distinct(points);
+  const PointMatrix& places = once.rows() > 0 ? once : points;
   const auto count = static_cast<std::size_t>(places.rows());
   std::vector<Eigen::Vector3f> chosen;
-  for (std::size_t i = 0; i < count; i += sample_step(count))
-    chosen.emplace_back(places.row(static_cast<Eigen::Index>(i)));
+  for (const Place& place : places_of(places, sample_step(count)))
+    chosen.emplace_back(Eigen::Vector3f::Map(place.data()));
   if (chosen.size() < 2) return 0;
   // A cell that would hold one point if they filled the largest side of the box around most: far
   // outliers must not set it.
