@@ -18,7 +18,7 @@
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/hypotheses.hpp"
-#include "nodes/vote/splitmix64.hpp"
+#include "nodes/data/splitmix64.hpp"
 
 namespace posevote {
 namespace {

@@ -110,9 +110,7 @@ int describe(const Support& support, const OrientedColumns& columns, std::uint32
   const Eigen::Vector3f center = support.cloud().points.row(point);
   const Eigen::Vector3f normal = support.cloud().normals.row(point);
   thread_local std::vector<GridRun> around;
-  around.clear();
-  support.grid().for_each_run(center, center, support.radius(),
-                              [](const GridRun& run) { around.push_back(run); });
+  support.grid().find_runs(center, center, support.radius(), around);
   PointPairSums pairs{};
   const int count =
       add_point_pairs(columns, around.data(), around.size(),

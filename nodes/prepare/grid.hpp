@@ -36,31 +36,48 @@ class PointGrid {
   /// that depends on the points and the query alone.
   template <class Visit>
   void for_each_within(const Eigen::Vector3f& center, float radius, const Visit& visit) const {
-    for_each_offset_within(center, radius,
-                           [&visit](std::uint32_t index, float squared, float, float, float) {
-                             visit(index, squared);
-                           });
-  }
-
-  /// The same, calling visit(index, squared distance, dx, dy, dz): the offset from `center`.
-  template <class Visit>
-  void for_each_offset_within(const Eigen::Vector3f& center, float radius,
-                              const Visit& visit) const {
     if (!center.allFinite() || !(radius >= 0)) return;
+    const float squared_radius = radius * radius;
     for_each_run(center, center, radius, [&](const GridRun& run) {
-      const float squared_radius = radius * radius;
       for (std::size_t i = run.begin; i < run.end; ++i) {
         const float dx = x_[i] - center.x();
         const float dy = y_[i] - center.y();
         const float dz = z_[i] - center.z();
         const float squared = dx * dx + dy * dy + dz * dz;
-        if (squared <= squared_radius) visit(index_[i], squared, dx, dy, dz);
+        if (squared <= squared_radius) visit(index_[i], squared);
       }
     });
   }
 
-  /// Calls visit(run) for runs of points that hold all those within `radius` of the box from `low`
-  /// to `high` (finite), and some others: the way in for kernels that take many points at once.
+  /// Sets `runs` to runs of points that hold all those within `radius` of the box from `low` to
+  /// `high` (finite), and some others: the way in for kernels that take many points at once.
+  void find_runs(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float radius,
+                 std::vector<GridRun>& runs) const {
+    runs.clear();
+    for_each_run(low, high, radius, [&runs](const GridRun& run) { runs.push_back(run); });
+  }
+
+  /// The points in the grid's order, those of one rod by x. Behind the last of the coordinates
+  /// kGridPadding floats may be read.
+  std::size_t size() const { return index_.size(); }
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+  const std::vector<std::uint32_t>& indices() const { return index_; }  ///< of the cloud, each
+
+  /// Cuts the rods into runs of at most `length` [m] along x; `length` >= 0.
+  std::vector<GridRun> pieces(float length) const;
+
+  /// The nearest point within `radius`; of several at one distance the one with the smallest index.
+  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float radius) const;
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    GridRun rod;
+  };
+
+  /// find_runs, one by one.
   template <class Visit>
   void for_each_run(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float radius,
                     const Visit& visit) const {
@@ -84,26 +101,6 @@ class PointGrid {
         if (first != last) visit(GridRun{position(first), position(last)});
       }
   }
-
-  /// The points in the grid's order, those of one rod by x. Behind the last of the coordinates
-  /// kGridPadding floats may be read.
-  std::size_t size() const { return index_.size(); }
-  const float* x() const { return x_.data(); }
-  const float* y() const { return y_.data(); }
-  const float* z() const { return z_.data(); }
-  const std::vector<std::uint32_t>& indices() const { return index_; }  ///< of the cloud, each
-
-  /// Cuts the rods into runs of at most `length` [m] along x.
-  std::vector<GridRun> pieces(float length) const;
-
-  /// The nearest point within `radius`; of several at one distance the one with the smallest index.
-  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float radius) const;
-
- private:
-  struct Slot {
-    std::uint64_t key = 0;
-    GridRun rod;
-  };
 
   std::uint32_t position(std::vector<float>::const_iterator x) const {
     return static_cast<std::uint32_t>(x - x_.begin());

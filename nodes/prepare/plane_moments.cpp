@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace posevote::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kLanes = 16;
+constexpr std::size_t kLanes = 16;  // fixed: the order of the sums, hence their bits, hangs on it
 static_assert(kLanes <= kGridPadding);
 using Floats = hn::CappedTag<float, kLanes>;
 using F = hn::Vec<Floats>;

@@ -4,13 +4,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "graph/parallel.hpp"
+#include "nodes/data/splitmix64.hpp"
+#include "nodes/prepare/cells.hpp"
 #include "nodes/prepare/plane_moments.hpp"
+#include "nodes/prepare/spread.hpp"
 
 namespace posevote {
 namespace {
@@ -27,43 +31,6 @@ Eigen::Matrix3d covariance_of(const PlaneMoments& sum) {
   const auto weight = static_cast<double>(sum.one);
   const Eigen::Vector3d mean = Eigen::Vector3d(sum.x, sum.y, sum.z) / weight;
   return products / weight - mean * mean.transpose();
-}
-
-/// How points spread about their mean, as far as a plane through them asks.
-struct Spread {
-  double least = 0;        ///< smallest eigenvalue of the covariance
-  Eigen::Vector3d across;  ///< its eigenvector, not of unit length; 0 where points lie on a line
-};
-
-/// Newton's iteration from 0 rises to the smallest root of the characteristic polynomial, which has
-/// none below: five steps for a plane, where Eigen's closed form takes four times as long. A double
-/// root is approached by halves, but then no direction is the normal.
-Spread spread_of(const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix3d& m = covariance;
-  const double xy = m(0, 1) * m(0, 1), xz = m(0, 2) * m(0, 2), yz = m(1, 2) * m(1, 2);
-  const double trace = m(0, 0) + m(1, 1) + m(2, 2);
-  const double minors = m(0, 0) * m(1, 1) - xy + m(0, 0) * m(2, 2) - xz + m(1, 1) * m(2, 2) - yz;
-  const double product = m(0, 0) * (m(1, 1) * m(2, 2) - yz) - xy * m(2, 2) - xz * m(1, 1) +
-                         2 * m(0, 1) * m(0, 2) * m(1, 2);
-  double root = 0;
-  constexpr int kMostSteps = 40;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const double value = ((trace - root) * root - minors) * root + product;
-    const double slope = minors - (2 * trace - 3 * root) * root;
-    const double rise = value / slope;
-    if (!(rise > 1e-12 * trace)) break;
-    root += rise;
-  }
-  Spread spread{root, Eigen::Vector3d::Zero()};
-  // Of the two other eigenvalues the smaller must be more than 1e-4 of the larger.
-  const double sum = trace - root, others = minors - root * sum;
-  if (!(others > 1e-4 * sum * sum)) return spread;
-  const Eigen::Matrix3d left = m - root * Eigen::Matrix3d::Identity();
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d across = left.col(i).cross(left.col((i + 1) % 3));
-    if (across.squaredNorm() > spread.across.squaredNorm()) spread.across = across;
-  }
-  return spread;
 }
 
 PointMatrix centroids_of(const Voxels& voxels, const PointMatrix& points) {
@@ -116,12 +83,23 @@ float typical_thickness(const PlaneFitter& fitter) {
 
 using Place = std::array<float, 3>;
 
-/// Every `step`-th of the points, those that are finite.
-std::vector<Place> places_of(const PointMatrix& points, std::size_t step) {
+std::uint64_t hash_of(const Place& place) {
+  const std::uint64_t x = std::bit_cast<std::uint32_t>(place[0]);
+  const std::uint64_t y = std::bit_cast<std::uint32_t>(place[1]);
+  return splitmix64(splitmix64(x << 32 | y) ^ std::bit_cast<std::uint32_t>(place[2]));
+}
+
+/// The finite points; of many only about `most`, chosen by where they are: neither their order nor
+/// the columns of an image play a part.
+std::vector<Place> places_of(const PointMatrix& points, std::size_t most) {
+  const std::vector<std::uint32_t> finite = finite_rows(points);
+  const std::size_t step = std::max<std::size_t>(1, finite.size() / most);
   std::vector<Place> places;
-  places.reserve(static_cast<std::size_t>(points.rows()) / step + 1);
-  for (Eigen::Index i = 0; i < points.rows(); i += static_cast<Eigen::Index>(step))
-    if (points.row(i).allFinite()) places.push_back({points(i, 0), points(i, 1), points(i, 2)});
+  places.reserve(std::min(finite.size(), 2 * (finite.size() / step)));
+  for (const std::uint32_t i : finite) {
+    const Place place{points(i, 0), points(i, 1), points(i, 2)};
+    if (step == 1 || hash_of(place) % step == 0) places.push_back(place);
+  }
   return places;
 }
 
@@ -132,8 +110,7 @@ void keep_one_each(std::vector<Place>& places) {
 
 /// Whether a sample holds hardly any place twice.
 bool seem_distinct(const PointMatrix& points) {
-  std::vector<Place> sample =
-      places_of(points, sample_step(static_cast<std::size_t>(points.rows())));
+  std::vector<Place> sample = places_of(points, kSample);
   const std::size_t all = sample.size();
   keep_one_each(sample);
   return 20 * sample.size() >= 19 * all;
@@ -141,7 +118,7 @@ bool seem_distinct(const PointMatrix& points) {
 
 /// The finite points, each place once.
 PointMatrix distinct(const PointMatrix& points) {
-  std::vector<Place> places = places_of(points, 1);
+  std::vector<Place> places = places_of(points, std::numeric_limits<std::size_t>::max());
   keep_one_each(places);
   PointMatrix once(static_cast<Eigen::Index>(places.size()), 3);
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -160,10 +137,9 @@ PlaneFitter::PlaneFitter(const PointMatrix& points, float radius)
       weights_(weights_of(voxels_, grid_)) {}
 
 PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, int min_neighbours) const {
-  std::vector<GridRun> around;
   const Eigen::Vector3f center = centroids_.row(static_cast<Eigen::Index>(voxel));
-  grid_.for_each_run(center, center, radius_,
-                     [&around](const GridRun& run) { around.push_back(run); });
+  std::vector<GridRun> around;
+  grid_.find_runs(center, center, radius_, around);
   return fit(voxel, around, min_neighbours);
 }
 
@@ -186,12 +162,10 @@ PointMatrix PlaneFitter::normals(int min_neighbours) const {
   const std::vector<GridRun> pieces = grid_.pieces(radius_);
   graph::parallel_for(pieces.size(), 16, [&](std::size_t p) {
     thread_local std::vector<GridRun> around;
-    around.clear();
     Eigen::AlignedBox3f box;
     for (std::uint32_t i = pieces[p].begin; i < pieces[p].end; ++i)
       box.extend(centroids_.row(grid_.indices()[i]).transpose());
-    grid_.for_each_run(box.min(), box.max(), radius_,
-                       [](const GridRun& run) { around.push_back(run); });
+    grid_.find_runs(box.min(), box.max(), radius_, around);
     for (std::uint32_t i = pieces[p].begin; i < pieces[p].end; ++i) {
       const std::uint32_t voxel = grid_.indices()[i];
       const Eigen::Vector3f normal = fit(voxel, around, min_neighbours).normal;
@@ -217,15 +191,14 @@ float point_spacing(const PointMatrix& points) {
   // A place that holds thousands of points must not make the sample; few scans have one.
   const PointMatrix once = seem_distinct(points) ? PointMatrix() : distinct(points);
   const PointMatrix& places = once.rows() > 0 ? once : points;
-  const auto count = static_cast<std::size_t>(places.rows());
   std::vector<Eigen::Vector3f> chosen;
-  for (const Place& place : places_of(places, sample_step(count)))
+  for (const Place& place : places_of(places, kSample))
     chosen.emplace_back(Eigen::Vector3f::Map(place.data()));
   if (chosen.size() < 2) return 0;
   // A cell that would hold one point if they filled the largest side of the box around most: far
   // outliers must not set it.
   const float diagonal = middle_diagonal(chosen);
-  const float cell = diagonal / std::sqrt(static_cast<float>(count));
+  const float cell = diagonal / std::sqrt(static_cast<float>(places.rows()));
   const PointGrid grid(places, cell);
   std::vector<float> distances;
   for (const Eigen::Vector3f& point : chosen) {

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"

@@ -29,8 +29,8 @@
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
+#include "nodes/data/splitmix64.hpp"
 #include "nodes/data/votes.hpp"
-#include "nodes/vote/splitmix64.hpp"
 
 namespace posevote {
 namespace {

@@ -65,7 +65,8 @@ Box bounding_box(const SortedVotes& votes, std::uint32_t begin, std::uint32_t en
 /// The work of one thread; its buffers live as long as its range of batches.
 class BatchWorker {
  public:
-  /// `queries` and `others` may be one and the same; then each pair is looked at once.
+  /// `queries` and `others` may be one and the same; then votes of different
+  /// cells are looked at once a pair.
   BatchWorker(const SortedVotes& queries, const SortedVotes& others,
               std::vector<std::uint64_t>& sums)
       : queries_(queries),
@@ -83,7 +84,7 @@ class BatchWorker {
     back_.assign(one_set() ? near_.size() + kScanPadding : 0, 0);
     for (std::uint32_t i = batch.begin; i < batch.end; ++i) {
       add(i, sum_at(queries_.votes[i]));
-      if ((i - batch.begin) % kMostScans == kMostScans - 1) give_back(batch);
+      if ((i - batch.begin) % kMostWeights == kMostWeights - 1) give_back(batch);
     }
     give_back(batch);
   }

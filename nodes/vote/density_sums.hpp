@@ -13,7 +13,7 @@ namespace posevote {
 /// the order of `queries`. Both sets have the same bandwidth. Parallel over the queries.
 std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const SortedVotes& others);
 
-/// The same of one set at its own votes. Each pair is looked at once.
+/// The same of one set at its own votes. Votes of different cells are looked at once a pair.
 std::vector<std::uint64_t> density_sums(const SortedVotes& votes);
 
 }  // namespace posevote

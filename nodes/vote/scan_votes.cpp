@@ -39,7 +39,7 @@ class Total {
 
   HWY_INLINE void add(U weights) {
     lanes_ = hn::Add(lanes_, weights);
-    if (HWY_UNLIKELY(++count_ == kMostScans)) spill();
+    if (HWY_UNLIKELY(++count_ == kMostWeights)) spill();
   }
 
   HWY_INLINE std::uint64_t value() {

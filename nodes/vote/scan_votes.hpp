@@ -15,6 +15,7 @@ struct VoteColumns {
 };
 
 constexpr std::size_t kScanPadding = 64;
+constexpr std::uint32_t kMostWeights = 127;  ///< whose sum 32 bits hold
 
 /// Votes begin to end - 1 of the columns, to be compared with `sign` times the query's quaternion.
 struct ScanRange {
@@ -26,10 +27,8 @@ struct ScanRange {
 /// vote counts if it is near under its range's sign. Equals kernel_units bit for bit on every
 /// processor. Where `back` is not null, each vote's weight is added to its place there, too, padded
 /// as the columns are: the kernel is symmetric, and what a vote weighs at the query the query
-/// weighs at the vote. 2^32 holds kMostScans such weights.
+/// weighs at the vote. After kMostWeights scans it must be emptied.
 std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
                          const ScanRange* ranges, std::size_t range_count, std::uint32_t* back);
-
-constexpr std::uint32_t kMostScans = 127;
 
 }  // namespace posevote

@@ -79,7 +79,7 @@ void inner_plane_moments(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(
         plane_moments({x.data(), y.data(), z.data(), x.data()}, &run, 1, center, 1));
-  report(state, kItems, 41);
+  report(state, kItems, 37);
 }
 
 void inner_point_pairs(benchmark::State& state) {
@@ -105,7 +105,7 @@ void inner_votes(benchmark::State& state) {
         make_kernel({}),
         {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(), c[5].data(), c[6].data()},
         {0, 0, 0, 1, 0, 0, 0}, &range, 1, back.data()));
-  report(state, kItems, 52);
+  report(state, kItems, 47);
 }
 
 void inner_dot_products(benchmark::State& state) {

@@ -21,7 +21,7 @@ struct Found {
   int count = 0;
 };
 
-/// Of the first of many points in a cube of edge 2, every ninth of them without a normal.
+/// Of the first of many points in a ball of radius 1, every ninth of them without a normal.
 Found pairs() {
   const auto rows = kPoints + static_cast<Eigen::Index>(kGridPadding);
   const PointMatrix p = test::shaken(PointMatrix::Zero(rows, 3), 1);
@@ -43,10 +43,13 @@ Found pairs() {
 TEST_CASE("each pair weighs one in the histogram of each angle", "[describe]") {
   const Found found = pairs();
   REQUIRE(found.count > 200);
-  double sum = 0;
-  const float* first = &found.sums.sums[0][0][0][0];
-  for (std::size_t i = 0; i < sizeof found.sums / sizeof(float); ++i) sum += first[i];
-  CHECK(sum == Approx(PointPairSums::kAngles * found.count).epsilon(1e-5));
+  for (int angle = 0; angle < PointPairSums::kAngles; ++angle) {
+    double sum = 0;
+    for (const auto& row : found.sums.sums)
+      for (const auto& column : row[angle])
+        for (const float weight : column) sum += static_cast<double>(weight);
+    CHECK(sum == Approx(found.count).epsilon(1e-5));
+  }
 }
 
 TEST_CASE("point pairs have the same bits on every instruction set", "[describe]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/prepare/grid.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <set>
@@ -118,4 +119,38 @@ TEST_CASE("PointGrid visits in the same order each time", "[prepare]") {
   const PointMatrix points = scattered(5000, 1);
   CHECK(within(PointGrid(points, 0.1F), {0.1F, 0, 0}, 0.3F) ==
         within(PointGrid(points, 0.1F), {0.1F, 0, 0}, 0.3F));
+}
+
+TEST_CASE("PointGrid's runs hold all that is near a box", "[prepare]") {
+  const PointMatrix points = scattered(3000, 1);
+  const PointGrid grid(points, 0.1F);
+  const Eigen::Vector3f low(-0.3F, -0.1F, 0), high(0.1F, 0.2F, 0.25F);
+  std::vector<GridRun> runs{{7, 9}};
+  grid.find_runs(low, high, 0.1F, runs);
+  std::set<std::uint32_t> held;
+  for (const GridRun& run : runs)
+    for (std::uint32_t i = run.begin; i < run.end; ++i) {
+      CHECK(held.insert(grid.indices()[i]).second);
+      CHECK(grid.x()[i] == points(grid.indices()[i], 0));
+    }
+  int near = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const Eigen::Vector3f p = points.row(i);
+    if (Eigen::AlignedBox3f(low, high).exteriorDistance(p) > 0.1F) continue;
+    ++near;
+    CHECK(held.count(i) == 1);
+  }
+  CHECK(near > 100);
+  CHECK(held.size() < 1500);
+}
+
+TEST_CASE("PointGrid's pieces are short and hold each point once", "[prepare]") {
+  const PointGrid grid(scattered(3000, 1), 0.1F);
+  std::vector<int> times(grid.size(), 0);
+  for (const GridRun& piece : grid.pieces(0.15F)) {
+    REQUIRE(piece.begin < piece.end);
+    CHECK(grid.x()[piece.end - 1] - grid.x()[piece.begin] <= 0.15F);
+    for (std::uint32_t i = piece.begin; i < piece.end; ++i) ++times[i];
+  }
+  CHECK(std::count(times.begin(), times.end(), 1) == 3000);
 }

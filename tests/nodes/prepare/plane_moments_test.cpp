@@ -17,7 +17,7 @@ constexpr float kRadius = 0.6F;
 const float kCenter[3] = {0.1F, -0.2F, 0.05F};
 const std::vector<GridRun> kRuns{{3, 4}, {10, 60}, {60, 61}, {100, 493}, {499, 500}};
 
-/// Scattered in a cube of edge 2, padded.
+/// Scattered in a ball of radius 1, padded.
 const PointMatrix& points() {
   static const PointMatrix all =
       test::shaken(PointMatrix::Zero(kPoints + Eigen::Index(kGridPadding), 3), 1);
