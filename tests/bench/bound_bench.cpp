@@ -100,9 +100,10 @@ void inner_votes(benchmark::State& state) {
   for (unsigned i = 0; i < 7; ++i) c.push_back(numbers(kPadded, i));
   const ScanRange range{0, kItems, 1};
   std::vector<std::uint32_t> back(kPadded, 0);
+  const Kernel kernel = make_kernel({});
   for (auto _ : state)
     benchmark::DoNotOptimize(scan_votes(
-        make_kernel({}),
+        kernel,
         {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(), c[5].data(), c[6].data()},
         {0, 0, 0, 1, 0, 0, 0}, &range, 1, back.data()));
   report(state, kItems, 47);
