@@ -10,6 +10,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/vote/density_params.hpp"
 #include "nodes/vote/pose_index.hpp"
+#include "nodes/vote/sorted_votes.hpp"
 
 namespace posevote {
 namespace {
@@ -21,8 +22,7 @@ struct UsableVotes {
 
   UsableVotes(const VoteSet& set, Bandwidth bandwidth) {
     for (std::size_t v = 0; v < set.tx.size(); ++v) {
-      const VotePoint point{set.tx[v], set.ty[v], set.tz[v], set.qw[v],
-                            set.qx[v], set.qy[v], set.qz[v]};
+      const VotePoint point = vote_point(set, v);
       if (!is_usable(point, bandwidth)) continue;
       points.push_back(point);
       votes.push_back(v);
@@ -61,8 +61,7 @@ VoteDensity textbook_density(const VoteSet& votes, const DensityParams& params) 
     std::uint64_t units = 0;
     for (const auto& [other, squared] : near)
       units += kernel_units(kernel, vote, usable.points[other]);
-    result.density[usable.votes[i]] =
-        static_cast<double>(units) / static_cast<double>(kWeightUnits);
+    result.density[usable.votes[i]] = density_of(units);
   });
   return result;
 }

@@ -46,14 +46,29 @@ class Pairs {
  public:
   HWY_INLINE Pairs(const PairSource& source, PointPairSums& pairs) : pairs_(pairs) {
     const Floats d;
+    px_ = hn::Set(d, source.point[0]);
+    py_ = hn::Set(d, source.point[1]);
+    pz_ = hn::Set(d, source.point[2]);
     nx_ = hn::Set(d, source.normal[0]);
     ny_ = hn::Set(d, source.normal[1]);
     nz_ = hn::Set(d, source.normal[2]);
+    squared_radius_ = hn::Set(d, source.radius * source.radius);
+    min_facing_ = hn::Set(d, source.min_facing);
     bins_per_metre_ = hn::Set(d, PointPairSums::kDistanceBins / source.radius);
   }
 
-  HWY_INLINE void add(F x, F y, F z, F other_x, F other_y, F other_z, hn::Mask<Floats> chosen) {
+  /// Adds the neighbours among the points from i on, where `valid`.
+  HWY_INLINE void add(const OrientedColumns& cloud, std::size_t i, hn::Mask<Floats> valid) {
     const Floats d;
+    const F x = hn::Sub(hn::LoadU(d, cloud.x + i), px_);
+    const F y = hn::Sub(hn::LoadU(d, cloud.y + i), py_);
+    const F z = hn::Sub(hn::LoadU(d, cloud.z + i), pz_);
+    const F squared = dot(x, y, z, x, y, z);
+    const auto near = hn::And(hn::Le(squared, squared_radius_), hn::Gt(squared, hn::Zero(d)));
+    const F other_x = hn::LoadU(d, cloud.nx + i), other_y = hn::LoadU(d, cloud.ny + i);
+    const F other_z = hn::LoadU(d, cloud.nz + i);
+    const auto facing = hn::Ge(dot(other_x, other_y, other_z, nx_, ny_, nz_), min_facing_);
+    const auto chosen = hn::And(hn::And(near, facing), valid);
     hn::StoreU(hn::Compress(x, chosen), d, x_ + filled_);
     hn::StoreU(hn::Compress(y, chosen), d, y_ + filled_);
     hn::StoreU(hn::Compress(z, chosen), d, z_ + filled_);
@@ -139,7 +154,7 @@ class Pairs {
   }
 
   PointPairSums& pairs_;
-  F nx_, ny_, nz_, bins_per_metre_;
+  F px_, py_, pz_, nx_, ny_, nz_, squared_radius_, min_facing_, bins_per_metre_;
   std::size_t filled_ = 0;
   int count_ = 0;
   HWY_ALIGN float x_[kRoom], y_[kRoom], z_[kRoom];
@@ -151,26 +166,10 @@ class Pairs {
 int add_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run_count,
               const PairSource& source, PointPairSums& sums) {
   const Floats d;
-  const F px = hn::Set(d, source.point[0]), py = hn::Set(d, source.point[1]);
-  const F pz = hn::Set(d, source.point[2]);
-  const F nx = hn::Set(d, source.normal[0]), ny = hn::Set(d, source.normal[1]);
-  const F nz = hn::Set(d, source.normal[2]);
-  const F squared_radius = hn::Set(d, source.radius * source.radius);
-  const F min_facing = hn::Set(d, source.min_facing);
   Pairs pairs(source, sums);
   for (std::size_t r = 0; r < run_count; ++r)
-    for (std::size_t i = runs[r].begin; i < runs[r].end; i += hn::Lanes(d)) {
-      const F x = hn::Sub(hn::LoadU(d, cloud.x + i), px);
-      const F y = hn::Sub(hn::LoadU(d, cloud.y + i), py);
-      const F z = hn::Sub(hn::LoadU(d, cloud.z + i), pz);
-      const F squared = dot(x, y, z, x, y, z);
-      const auto valid = hn::FirstN(d, std::min(hn::Lanes(d), runs[r].end - i));
-      const auto near = hn::And(hn::Le(squared, squared_radius), hn::Gt(squared, hn::Zero(d)));
-      const F ox = hn::LoadU(d, cloud.nx + i), oy = hn::LoadU(d, cloud.ny + i);
-      const F oz = hn::LoadU(d, cloud.nz + i);
-      const auto facing = hn::Ge(dot(ox, oy, oz, nx, ny, nz), min_facing);
-      pairs.add(x, y, z, ox, oy, oz, hn::And(hn::And(near, facing), valid));
-    }
+    for (std::size_t i = runs[r].begin; i < runs[r].end; i += hn::Lanes(d))
+      pairs.add(cloud, i, hn::FirstN(d, std::min(hn::Lanes(d), runs[r].end - i)));
   return pairs.finish();
 }
 

@@ -3,9 +3,8 @@
 // (outline.hpp). `reach` is what a scan that ends is off at most. O(points).
 //
 //   find_outline: {in: [cloud, scale], out: outline}
-#include <stdexcept>
-
 #include "graph/registry.hpp"
+#include "nodes/prepare/normals.hpp"
 #include "nodes/segment/outline.hpp"
 
 namespace posevote {
@@ -16,8 +15,7 @@ struct Params {
 };
 
 Outline find_outline(const Cloud& cloud, const Scale& scale, const Params& params) {
-  if (cloud.normals.rows() != cloud.points.rows())
-    throw std::runtime_error("its points have no normals: put a normals node before this one");
+  require_normals(cloud);
   return outline_of(cloud, static_cast<float>(params.reach) * scale.resolution);
 }
 

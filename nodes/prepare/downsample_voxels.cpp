@@ -66,8 +66,7 @@ std::vector<Group> group(const Cloud& cloud, std::span<const std::uint32_t> memb
 }
 
 Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& params) {
-  if (cloud.normals.rows() != cloud.points.rows())
-    throw std::runtime_error("its points have no normals: put a normals node before this one");
+  require_normals(cloud);
   Cloud out = keep_oriented(cloud, cloud.normals);
   const Voxels voxels =
       group_by_voxel(out.points, static_cast<float>(params.leaf_size) * scale.resolution);

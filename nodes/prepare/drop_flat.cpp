@@ -56,9 +56,7 @@ double relief_of(const Moments& sum) {
 std::vector<float> relief_around(const Cloud& cloud, float radius) {
   const Voxels voxels = group_by_voxel(cloud.points, radius / 2);
   const std::vector<Moments> moments = moments_of(cloud, voxels);
-  PointMatrix centroids(static_cast<Eigen::Index>(voxels.size()), 3);
-  for (std::size_t v = 0; v < voxels.size(); ++v)
-    centroids.row(static_cast<Eigen::Index>(v)) = voxels.centroid(cloud.points, v).cast<float>();
+  const PointMatrix centroids = voxels.centroids(cloud.points);
   const PointGrid grid(centroids, radius);
   std::vector<float> relief(static_cast<std::size_t>(cloud.points.rows()), 0);
   graph::parallel_for(voxels.size(), 64, [&](std::size_t v) {

@@ -60,6 +60,11 @@ Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
   return out;
 }
 
+void require_normals(const Cloud& cloud) {
+  if (cloud.normals.rows() != cloud.points.rows())
+    throw std::runtime_error("its points have no normals: put a normals node before this one");
+}
+
 void check_faces(const PointMatrix& points, const FaceMatrix& faces) {
   if (faces.rows() == 0 || faces.maxCoeff() < points.rows()) return;
   throw std::runtime_error("a face refers to point " + std::to_string(faces.maxCoeff()) + " of " +

@@ -21,6 +21,9 @@ void turn_toward(const Eigen::Vector3f& viewpoint, const PointMatrix& points, Po
 /// left.
 Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals);
 
+/// Throws std::runtime_error if the points have no normals.
+void require_normals(const Cloud& cloud);
+
 /// Throws std::runtime_error if a face has a corner that is no point.
 void check_faces(const PointMatrix& points, const FaceMatrix& faces);
 

@@ -33,13 +33,6 @@ Eigen::Matrix3d covariance_of(const PlaneMoments& sum) {
   return products / weight - mean * mean.transpose();
 }
 
-PointMatrix centroids_of(const Voxels& voxels, const PointMatrix& points) {
-  PointMatrix centroids(static_cast<Eigen::Index>(voxels.size()), 3);
-  for (std::size_t v = 0; v < voxels.size(); ++v)
-    centroids.row(static_cast<Eigen::Index>(v)) = voxels.centroid(points, v).cast<float>();
-  return centroids;
-}
-
 std::vector<float> weights_of(const Voxels& voxels, const PointGrid& grid) {
   std::vector<float> weights(voxels.size() + kGridPadding, 0);
   for (std::size_t i = 0; i < grid.size(); ++i)
@@ -108,9 +101,8 @@ void keep_one_each(std::vector<Place>& places) {
   places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
-/// Whether a sample holds hardly any place twice.
-bool seem_distinct(const PointMatrix& points) {
-  std::vector<Place> sample = places_of(points, kSample);
+/// Whether the places are hardly any twice.
+bool seem_distinct(std::vector<Place> sample) {
   const std::size_t all = sample.size();
   keep_one_each(sample);
   return 20 * sample.size() >= 19 * all;
@@ -132,7 +124,7 @@ PlaneFitter::PlaneFitter(const PointMatrix& points, float radius)
     : radius_(radius),
       point_count_(points.rows()),
       voxels_(group_by_voxel(points, radius * kMergePerRadius)),
-      centroids_(centroids_of(voxels_, points)),
+      centroids_(voxels_.centroids(points)),
       grid_(centroids_, radius),
       weights_(weights_of(voxels_, grid_)) {}
 
@@ -188,12 +180,17 @@ std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smal
 }
 
 float point_spacing(const PointMatrix& points) {
+  std::vector<Place> sample = places_of(points, kSample);
   // A place that holds thousands of points must not make the sample; few scans have one.
-  const PointMatrix once = seem_distinct(points) ? PointMatrix() : distinct(points);
+  PointMatrix once;
+  if (!seem_distinct(sample)) {
+    once = distinct(points);
+    sample = places_of(once, kSample);
+  }
   const PointMatrix& places = once.rows() > 0 ? once : points;
   std::vector<Eigen::Vector3f> chosen;
-  for (const Place& place : places_of(places, kSample))
-    chosen.emplace_back(Eigen::Vector3f::Map(place.data()));
+  chosen.reserve(sample.size());
+  for (const Place& place : sample) chosen.emplace_back(Eigen::Vector3f::Map(place.data()));
   if (chosen.size() < 2) return 0;
   // A cell that would hold one point if they filled the largest side of the box around most: far
   // outliers must not set it.

@@ -57,6 +57,13 @@ Eigen::RowVector3d Voxels::centroid(const PointMatrix& points, std::size_t voxel
   return sum / static_cast<double>(members.size());
 }
 
+PointMatrix Voxels::centroids(const PointMatrix& points) const {
+  PointMatrix centroids(static_cast<Eigen::Index>(size()), 3);
+  for (std::size_t v = 0; v < size(); ++v)
+    centroids.row(static_cast<Eigen::Index>(v)) = centroid(points, v).cast<float>();
+  return centroids;
+}
+
 Voxels group_by_voxel(const PointMatrix& points, float leaf) {
   std::vector<Keyed> keyed = keyed_points(points, leaf);
   radix_sort(keyed, [](const Keyed& one) { return one.x; });

@@ -22,6 +22,8 @@ struct Voxels {
   }
   /// Mean of the points of a voxel.
   Eigen::RowVector3d centroid(const PointMatrix& points, std::size_t voxel) const;
+  /// Those of all voxels.
+  PointMatrix centroids(const PointMatrix& points) const;
 };
 
 /// Sorts the finite points into cubes of edge `leaf` [m] whose corner is the points' own minimum: a

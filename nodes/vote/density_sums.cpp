@@ -65,8 +65,8 @@ Box bounding_box(const SortedVotes& votes, std::uint32_t begin, std::uint32_t en
 /// The work of one thread; its buffers live as long as its range of batches.
 class BatchWorker {
  public:
-  /// `queries` and `others` may be one and the same; then votes of different
-  /// cells are looked at once a pair.
+  /// `queries` and `others` may be one and the same; then votes of different cells are looked at
+  /// once a pair.
   BatchWorker(const SortedVotes& queries, const SortedVotes& others,
               std::vector<std::uint64_t>& sums)
       : queries_(queries),
@@ -81,7 +81,7 @@ class BatchWorker {
     if (near_.empty()) return;
     choose_grid(batch.end - batch.begin);
     sort_by_rotation();
-    back_.assign(one_set() ? near_.size() + kScanPadding : 0, 0);
+    back_.assign(one_set() ? order_.size() + kScanPadding : 0, 0);
     for (std::uint32_t i = batch.begin; i < batch.end; ++i) {
       add(i, sum_at(queries_.votes[i]));
       if ((i - batch.begin) % kMostWeights == kMostWeights - 1) give_back(batch);
@@ -118,7 +118,7 @@ class BatchWorker {
   std::vector<std::uint32_t> near_;        ///< others within sigma_t of the batch's box
   std::uint32_t grid_ = 0;                 ///< rotation cells per axis; 0: no grid
   std::vector<std::uint32_t> cell_begin_;  ///< of the rotation cells, in the columns
-  std::vector<std::uint32_t> order_;       ///< near_ by rotation cell
+  std::vector<std::uint32_t> order_;       ///< near_ by rotation cell: what the columns hold
   std::vector<float> buffer_;              ///< behind columns_
   VoteColumns columns_{};
   std::vector<std::uint32_t> back_;  ///< per column: what the queries weigh there, not yet given
@@ -164,7 +164,7 @@ void BatchWorker::choose_grid(std::size_t query_count) {
 
 void BatchWorker::sort_by_rotation() {
   if (grid_ == 0) {
-    order_ = near_;
+    order_.swap(near_);
     return copy_columns();
   }
   const auto cell_of = [this](std::uint32_t i) {
@@ -207,7 +207,7 @@ void BatchWorker::copy_columns() {
 std::uint64_t BatchWorker::sum_at(const SortedVote& query) {
   ranges_.clear();
   if (grid_ == 0) {
-    const auto count = static_cast<std::uint32_t>(near_.size());
+    const auto count = static_cast<std::uint32_t>(order_.size());
     ranges_.push_back({0, count, 1});
     ranges_.push_back({0, count, -1});
   } else {

@@ -37,6 +37,11 @@ struct VotePoint {
 /// or doubles are exact and do not depend on their order.
 constexpr float kWeightUnits = 33554432.0F;  // 2^25
 
+/// A sum of weights that was made in units.
+inline double density_of(std::uint64_t units) {
+  return static_cast<double>(units) / static_cast<double>(kWeightUnits);
+}
+
 /// Constants of the kernel for one bandwidth.
 struct Kernel {
   float max_dt2;         ///< sigma_t^2

@@ -31,10 +31,6 @@ void check_bandwidth(Bandwidth bandwidth) {
                                 " deg, expected 0.5 to 90");
 }
 
-double density_of(std::uint64_t units) {
-  return static_cast<double>(units) / static_cast<double>(kWeightUnits);
-}
-
 }  // namespace
 
 PoseIndex::PoseIndex(const VoteSet& votes, Bandwidth bandwidth) {

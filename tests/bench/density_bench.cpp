@@ -12,6 +12,7 @@
 #include <random>
 
 #include "nodes/vote/pose_index.hpp"
+#include "nodes/vote/sorted_votes.hpp"
 #include "tests/support/instruction_set.hpp"
 
 namespace posevote {
@@ -80,10 +81,7 @@ const VoteSet& votes() {
   return set;
 }
 
-VotePoint point(std::size_t v) {
-  const VoteSet& s = votes();
-  return {s.tx[v], s.ty[v], s.tz[v], s.qw[v], s.qx[v], s.qy[v], s.qz[v]};
-}
+VotePoint point(std::size_t v) { return vote_point(votes(), v); }
 
 void build_index(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nodes/vote/scan_votes.hpp"
+#include "nodes/vote/sorted_votes.hpp"
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/votes.hpp"
 
@@ -77,10 +78,7 @@ TEST_CASE("scanning equals the kernel bit for bit, on every instruction set", "[
   for (std::uint32_t i = 0; i < 300; ++i) {
     const std::uint32_t begin = i * 7, end = i == 299 ? 6000 : begin + i % 70;
     const ScanRange ranges[2] = {{begin, end, 1}, {begin, end, -1}};
-    const auto at = [&](std::size_t v) {
-      return VotePoint{votes.tx[v], votes.ty[v], votes.tz[v], votes.qw[v],
-                       votes.qx[v], votes.qy[v], votes.qz[v]};
-    };
+    const auto at = [&](std::size_t v) { return vote_point(votes, v); };
     std::uint64_t expected = 0;
     std::vector<std::uint32_t> back(6000 + kScanPadding, 0), expected_back = back;
     for (std::uint32_t v = begin; v < end; ++v) {
