@@ -23,6 +23,12 @@ constexpr double kHopeless = 0.25;       // x the best rank: ICP seldom raises o
 // seen.
 constexpr double kTrustInSupport = 0.1;
 
+// Weight of the consensus in the score, measured on simulated and real RGB-D scans: support per
+// feature on the posed model is 0.2 .. 1.2 for true poses, seldom below 0.05, and 0.02 .. 0.1 for
+// shapes that only look alike from one side. The score tells how well a pose fits, the consensus
+// how many of the features there had voted for it before anybody looked.
+constexpr double kTrustInConsensus = 0.2;
+
 using Candidates = std::vector<Candidate>;
 
 void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
@@ -63,7 +69,7 @@ void ObjectSearch::choose() {
 void ObjectSearch::choose_among_judged() {
   best_ = best_finalist();
   chosen_at_ = scan_.takes;
-  if (best_ && best_->score > 0 && best_->score >= params_.min_score) return;
+  if (best_ && best_->confidence() > 0 && best_->confidence() >= params_.min_score) return;
   best_.reset();
   pool_.clear();
 }
@@ -158,6 +164,7 @@ void ObjectSearch::refine(Candidate& candidate) const {
     }
   }
   candidate.is_refined = true;
+  candidate.consensus = consensus(candidate);
   set_score(candidate);
 }
 
@@ -165,6 +172,15 @@ void ObjectSearch::set_score(Candidate& candidate) const {
   candidate.score = fit_score(candidate.fit);
   candidate.rank =
       candidate.score * std::pow(candidate.mode.support / most_support_, kTrustInSupport);
+}
+
+/// In [0, 1], from the support per feature of the scan that the pose explains.
+double ObjectSearch::consensus(const Candidate& candidate) const {
+  const std::size_t explained =
+      scan_.count_explained(model_, candidate.T_scene_model, params_.tolerance);
+  const double share =
+      candidate.mode.support / static_cast<double>(std::max<std::size_t>(1, explained));
+  return std::pow(std::min(1.0, share), kTrustInConsensus);
 }
 
 Fit ObjectSearch::measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const {

@@ -39,9 +39,11 @@ struct Candidate {
   PoseMode mode;  ///< before ICP
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
-  double score = 0;
+  double score = 0;         ///< of the fit alone
+  double consensus = 1;     ///< in [0, 1], of the votes; known after ICP
   bool is_refined = false;  ///< whether the pose is after ICP
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
+  double confidence() const { return score * consensus; }  ///< that of the detection
 };
 
 /// An object to look for. Searches of different objects may go on side by side.
@@ -79,6 +81,7 @@ class ObjectSearch {
   std::vector<Candidate>::iterator refine_best(std::vector<Candidate>& sorted) const;
   Candidate best_alike(const Candidate& candidate) const;
   void set_score(Candidate& candidate) const;
+  double consensus(const Candidate& candidate) const;
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const;
   Eigen::Vector3f center_of(const Candidate& candidate) const;
   bool is_clear(const Eigen::Vector3f& center) const;

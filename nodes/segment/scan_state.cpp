@@ -30,4 +30,14 @@ void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_mo
     feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
 }
 
+std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                                       float distance) const {
+  const PointGrid grid(model.cloud.points, distance);
+  const std::vector<char> now =
+      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) count += now[i] != 0 && feature_explained[i] == 0;
+  return count;
+}
+
 }  // namespace posevote

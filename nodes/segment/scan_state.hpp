@@ -18,6 +18,9 @@ struct ScanState {
   /// Takes what a posed model explains, up to `distance` [m] from its surface, out of the scan's
   /// points and features. Free space stays what it is: `view` keeps all points.
   void take_out(const Model& model, const Eigen::Isometry3d& T_scene_model, float distance);
+  /// How many features that nothing explained yet would a posed model explain.
+  std::size_t count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                              float distance) const;
 
   const Cloud& cloud;
   const FeatureSet& features;

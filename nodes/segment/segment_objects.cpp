@@ -6,7 +6,8 @@
 // whatever object (find_instances.hpp), so that no wrong object is left with a right one's points.
 // Correspondences that start at explained points are taken out of all objects; their votes are
 // subtracted from the densities, which equals voting anew without them. The score rests on what the
-// sensor measured, free space included (measure_fit.cpp). Cost: per object `candidates` glances,
+// sensor measured, free space included (measure_fit.cpp), and on how many of the features that the
+// pose explains voted for it (ObjectSearch::consensus). Cost: per object `candidates` glances,
 // 100 neighbourhood queries and looks, and again for what is not found at first; per instance five
 // ICPs. A scan without votes gives no detections; that is no failure. Points without a normal are
 // never matched. Known limit: an object of which one flat side alone is seen scores low.

@@ -36,7 +36,7 @@ Detection make_detection(const Model& model, const Candidate& candidate) {
   Detection detection;
   detection.obj_id = model.obj_id;
   detection.model = model.name;
-  detection.score = candidate.score;
+  detection.score = candidate.confidence();
   detection.inlier_fraction = candidate.fit.inlier_fraction;
   detection.rmse = candidate.fit.rmse;
   detection.T_scene_model = candidate.T_scene_model;

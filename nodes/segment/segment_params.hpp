@@ -15,7 +15,7 @@ struct SegmentParams {
   int candidates = 1000;
   double nms = 0.1;
   double min_density = 3;
-  double min_score = 0.4;
+  double min_score = 0.3;
   bool refine = true;
   double icp_distance = 5;
   int icp_iterations = 40;
