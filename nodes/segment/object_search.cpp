@@ -164,7 +164,7 @@ void ObjectSearch::refine(Candidate& candidate) const {
     }
   }
   candidate.is_refined = true;
-  candidate.consensus = consensus(candidate);
+  if (proposals_.from_votes) candidate.consensus = consensus(candidate);
   set_score(candidate);
 }
 

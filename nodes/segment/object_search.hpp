@@ -32,6 +32,9 @@ struct Proposals {
   std::function<std::vector<PoseMode>()> propose;
   /// Makes the pose of a proposal on the short list better, before ICP; its support stays.
   std::function<PoseMode(const PoseMode& mode)> improve;
+  /// Whether a mode's support is the density of votes. Then it counts in the score; rivals' own
+  /// measures differ in scale, and the fit alone makes theirs.
+  bool from_votes = false;
 };
 
 /// A pose of the object, and how it fits.
@@ -40,7 +43,7 @@ struct Candidate {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
   double score = 0;         ///< of the fit alone
-  double consensus = 1;     ///< in [0, 1], of the votes; known after ICP
+  double consensus = 1;     ///< in [0, 1], of votes, after ICP
   bool is_refined = false;  ///< whether the pose is after ICP
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
   double confidence() const { return score * consensus; }  ///< that of the detection

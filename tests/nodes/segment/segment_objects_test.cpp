@@ -77,6 +77,19 @@ TEST_CASE("two objects are found at their poses", "[segment]") {
   }
 }
 
+TEST_CASE("a pose that few features voted for scores lower", "[segment]") {
+  const std::vector<Detection> all = segment(inputs_of({kLeft}, {1}, 0));
+  const Inputs sparse = inputs_of({kLeft}, {1}, 0.97);
+  const std::vector<Detection> few = segment(sparse);
+  REQUIRE(all.size() == 1);
+  REQUIRE(few.size() == 1);
+  CHECK(shift_between(few[0].T_scene_model, all[0].T_scene_model) < 0.1 * kResolution);
+  CHECK(few[0].density < 0.1 * all[0].density);
+  CHECK(few[0].inlier_fraction == Approx(all[0].inlier_fraction).margin(0.01));
+  CHECK(few[0].score < 0.8 * all[0].score);
+  CHECK(segment(sparse, {{"min_score", std::to_string(1.01 * few[0].score)}}).empty());
+}
+
 TEST_CASE("two instances of one object are both found", "[segment]") {
   const Placed left{1, pose(-0.09, 0.01, 0.8, 0.7)}, right{1, pose(0.09, -0.02, 0.75, 2.5)};
   const Inputs inputs = inputs_of({left, right}, {1});
