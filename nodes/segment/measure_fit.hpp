@@ -41,8 +41,8 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& s
                 const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
                 Eigen::Index samples = 0);
 
-/// The detection's score in [0, 1]: how much of what should be visible is there, times how much
-/// there is to go by; the .cpp gives the reasons.
+/// In [0, 1]: how much of what should be visible is there, times how much there is to go by; the
+/// .cpp gives the reasons.
 double fit_score(const Fit& fit);
 
 }  // namespace posevote

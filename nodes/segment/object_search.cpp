@@ -25,8 +25,8 @@ constexpr double kTrustInSupport = 0.1;
 
 // Weight of the consensus in the score, measured on simulated and real RGB-D scans: support per
 // feature on the posed model is 0.2 .. 1.2 for true poses, seldom below 0.05, and 0.02 .. 0.1 for
-// shapes that only look alike from one side. The score tells how well a pose fits, the consensus
-// how many of the features there had voted for it before anybody looked.
+// shapes that only look alike from one side. The fit tells how much of the surface is there, the
+// consensus how many of the features on it had voted for the pose before anybody looked.
 constexpr double kTrustInConsensus = 0.2;
 
 using Candidates = std::vector<Candidate>;
@@ -68,6 +68,7 @@ void ObjectSearch::choose() {
 
 void ObjectSearch::choose_among_judged() {
   best_ = best_finalist();
+  if (best_ && proposals_.from_votes) best_->consensus = consensus(*best_);
   chosen_at_ = scan_.takes;
   if (best_ && best_->confidence() > 0 && best_->confidence() >= params_.min_score) return;
   best_.reset();
@@ -164,7 +165,6 @@ void ObjectSearch::refine(Candidate& candidate) const {
     }
   }
   candidate.is_refined = true;
-  if (proposals_.from_votes) candidate.consensus = consensus(candidate);
   set_score(candidate);
 }
 

@@ -43,7 +43,7 @@ struct Candidate {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
   double score = 0;         ///< of the fit alone
-  double consensus = 1;     ///< in [0, 1], of votes, after ICP
+  double consensus = 1;     ///< in [0, 1], of votes, for the best of a search
   bool is_refined = false;  ///< whether the pose is after ICP
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
   double confidence() const { return score * consensus; }  ///< that of the detection
