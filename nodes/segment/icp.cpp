@@ -15,7 +15,10 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr Eigen::Index kMaxSamples = 2000;  // model points; about half of them face the sensor
+// Model points, of which about half face the sensor: few show the way, many the place.
+constexpr Eigen::Index kFewSamples = 500, kSamples = 2000;
+constexpr double kFewUntil = 0.5;  // of the iterations, at most
+constexpr double kSlow = 0.1;      // of the final search radius: a shorter step calls for the many
 constexpr std::size_t kFewestPairs = 10;
 constexpr double kShrink = 0.85;  // of the search radius per iteration
 constexpr double kUnobserved =
@@ -48,8 +51,9 @@ Pair find_partner(const OrientedPoint& p, const ScanSurface& scan, float distanc
 
 /// The model is sampled with a fixed stride: voxel order runs through space, so that is even.
 std::vector<Pair> find_pairs(const Cloud& model, const ScanSurface& scan,
-                             const Eigen::Isometry3f& T_scene_model, float distance) {
-  const Eigen::Index stride = model.points.rows() / kMaxSamples + 1;
+                             const Eigen::Isometry3f& T_scene_model, float distance,
+                             Eigen::Index most) {
+  const Eigen::Index stride = model.points.rows() / most + 1;
   const auto samples = static_cast<std::size_t>((model.points.rows() + stride - 1) / stride);
   std::vector<Pair> pairs(samples);
   graph::parallel_for(samples, 256, [&](std::size_t i) {
@@ -128,16 +132,22 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
+  bool few = true;
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
+    few = few && iteration < kFewUntil * params.iterations;
     const std::vector<Pair> pairs =
-        find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance));
+        find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance),
+                   few ? kFewSamples : kSamples);
     if (pairs.size() < kFewestPairs) return iteration == 0 ? start : T_scene_model;
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) return T_scene_model;
     const Vector6d step = limit_step(solve_step(pairs, pivot), pivot.lever, distance);
     if (!step.allFinite()) return T_scene_model;
     move(T_scene_model, step, pivot);
-    if (distance <= end && step.norm() <= kStill * end) break;
+    if (distance <= end && step.norm() <= (few ? kSlow : kStill) * end) {
+      if (!few) break;
+      few = false;
+    }
     distance = std::max(end, distance * kShrink);
   }
   return T_scene_model;

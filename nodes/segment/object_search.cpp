@@ -16,7 +16,7 @@ constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
 constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
 constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
-constexpr double kHopeless = 0.25;       // x the best rank: ICP seldom raises one fourfold
+constexpr double kHopeless = 0.25;       // of what is needed: ICP seldom raises a score fourfold
 
 // A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
 // votes and fit are evidence of their own, but true instances differ much in how much of them is
@@ -113,7 +113,9 @@ void ObjectSearch::judge_again() {
 Candidates::iterator ObjectSearch::refine_best(Candidates& sorted) const {
   const std::size_t most = std::min(kFinalists, sorted.size());
   std::size_t count = 0;
-  while (count < most && sorted[count].rank >= kHopeless * sorted[0].rank) ++count;
+  while (count < most && sorted[count].rank >= kHopeless * sorted[0].rank &&
+         sorted[count].score >= kHopeless * params_.min_score)
+    ++count;
   graph::parallel_for(count, 1, [&](std::size_t i) { refine(sorted[i]); });
   return sorted.begin() + static_cast<std::ptrdiff_t>(count);
 }
@@ -123,6 +125,7 @@ Candidates::iterator ObjectSearch::refine_best(Candidates& sorted) const {
 std::optional<Candidate> ObjectSearch::best_finalist() {
   while (!pool_.empty()) {
     const Candidates::iterator end = refine_best(pool_);
+    if (end == pool_.begin()) break;
     sort_by_rank(pool_.begin(), end);
     for (auto candidate = pool_.begin(); candidate != end; ++candidate)
       if (is_clear(center_of(*candidate))) return best_alike(*candidate);
@@ -149,21 +152,18 @@ Candidate ObjectSearch::best_alike(const Candidate& candidate) const {
   return best;
 }
 
-/// ICP, kept where it keeps the support that the mode had. Done once for a mode: what is taken out
-/// of the scan later moves no pose.
+/// ICP on a pose that was looked at, kept where it keeps the support. Done once for a mode: what is
+/// taken out of the scan later moves no pose.
 void ObjectSearch::refine(Candidate& candidate) const {
-  candidate.fit = measure(candidate.T_scene_model, 0);
   if (params_.refine && !candidate.is_refined) {
     const Eigen::Isometry3d T_refined =
         icp(model_.cloud, scan_.surface, candidate.T_scene_model,
             {params_.icp_iterations, params_.icp_distance, params_.tolerance});
-    const Fit refined = measure(T_refined, 0);
     const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
-    if (static_cast<double>(refined.supported) >= fewest) {
+    if (static_cast<double>(measure(T_refined, kLook).supported) >= fewest)
       candidate.T_scene_model = T_refined;
-      candidate.fit = refined;
-    }
   }
+  candidate.fit = measure(candidate.T_scene_model, 0);
   candidate.is_refined = true;
   set_score(candidate);
 }
