@@ -31,13 +31,17 @@ struct Reader {
 
   YAML::Node load() const {
     try {
-      YAML::Node root = YAML::LoadFile(file);
-      if (root.IsMap()) return root;
+      if (std::filesystem::is_directory(file)) {
+        report({file, 0, 0}, "", "is a folder, expected a YAML file");
+        return YAML::Node(YAML::NodeType::Undefined);
+      }
+      const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file);
+      for (std::size_t i = 1; i < documents.size(); ++i)
+        report(at(documents[i]), "", "starts another YAML document; only the first would count");
+      if (!documents.empty() && documents[0].IsMap()) return documents[0];
       report({file, 1, 1}, "", "expected a map of keys, as in `pipeline: recognize`");
     } catch (const YAML::BadFile&) {
-      const bool folder = std::filesystem::is_directory(file);
-      report({file, 0, 0}, "",
-             folder ? "is a folder, expected a YAML file" : "cannot be read: no such file?");
+      report({file, 0, 0}, "", "cannot be read: no such file?");
     } catch (const YAML::Exception& error) {
       report(at(error.mark), "", "is not valid YAML: " + error.msg);
     }
@@ -204,6 +208,7 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
 }
 
 bool is_pipeline(const std::string& file) {
+  if (std::filesystem::is_directory(file)) return false;  // likewise
   try {
     const YAML::Node root = YAML::LoadFile(file);
     return root.IsMap() && root["nodes"].IsDefined();

@@ -18,11 +18,13 @@ using graph::Override;
 using graph::PipelineDescription;
 using graph::Problem;
 
-/// "uwa" -> the project's configs/uwa.yaml, unless a file of that name is here.
+/// "uwa" -> the project's configs/uwa.yaml, unless a file of that name is here. A data set's folder
+/// may well be called so.
 std::string find_config(const std::string& config) {
   const fs::path own = fs::path(POSEVOTE_SOURCE_DIR) / "configs" / (config + ".yaml");
   const bool is_name = config.find('/') == std::string::npos;
-  return is_name && !fs::exists(config) && fs::exists(own) ? own.string() : config;
+  const bool is_here = fs::exists(config) && !fs::is_directory(config);
+  return is_name && !is_here && fs::exists(own) ? own.string() : config;
 }
 
 /// Pipelines stand beside the config, in ../pipelines from there, or in the project.
@@ -71,10 +73,16 @@ graph::StreamType result_type(const graph::Plan& plan) {
 }
 
 void emit_parameters(YAML::Emitter& out, const graph::Plan& plan) {
-  for (const auto& [node, values] : graph::effective_parameters(plan)) {
-    if (values.empty()) continue;
-    out << YAML::Key << node << YAML::Value << YAML::BeginMap;
-    for (const auto& [key, value] : values) out << YAML::Key << key << YAML::Value << value;
+  const auto parameters = graph::effective_parameters(plan);
+  for (const graph::PlannedNode& node : plan.nodes) {
+    const auto values = parameters.find(node.name);
+    const bool is_renamed = node.spec->name != node.name;
+    if (values == parameters.end() && (node.like || !is_renamed)) continue;
+    out << YAML::Key << node.name << YAML::Value << YAML::BeginMap;
+    if (is_renamed) out << YAML::Key << "node" << YAML::Value << node.spec->name;
+    if (values != parameters.end())
+      for (const auto& [key, value] : values->second)
+        out << YAML::Key << key << YAML::Value << value;
     out << YAML::EndMap;
   }
 }

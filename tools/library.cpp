@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -22,6 +23,16 @@ std::string parameters_with_names(const Configuration& configuration, const Mode
   return text;
 }
 
+/// The graph counts the objects of a node that runs once for each; whoever reads it wants the file.
+std::string with_file(const std::string& what, const ModelFiles& models) {
+  std::size_t object = 0;
+  int length = 0;
+  if (std::sscanf(what.c_str(), "object %zu: %n", &object, &length) != 1 || length == 0 ||
+      object == 0 || object > models.size())
+    return what;
+  return models[object - 1].path.string() + ": " + what.substr(static_cast<std::size_t>(length));
+}
+
 }  // namespace
 
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
@@ -29,7 +40,8 @@ std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
   graph::Frame frame;
   frame.inputs = {std::make_shared<const ModelFiles>(models)};
   const graph::FrameResult result = graph::run_one(configuration.models, {}, std::move(frame));
-  if (result.failure) throw std::runtime_error(result.failure->node + ": " + result.failure->what);
+  if (result.failure)
+    throw std::runtime_error(result.failure->node + ": " + with_file(result.failure->what, models));
   return std::static_pointer_cast<const ModelLibrary>(result.result);
 }
 

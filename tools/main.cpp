@@ -6,8 +6,10 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <csignal>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "graph/problem.hpp"
@@ -25,6 +27,37 @@ std::atomic<bool> interrupted = false;
 extern "C" void on_interrupt(int signal) {
   interrupted = true;
   std::signal(signal, SIG_DFL);
+}
+
+/// For commands that ask `interrupted`; the others end at once.
+void end_in_order() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+
+/// Decimal digits alone, up to `most`: CLI11 takes signs, other bases and what overflows.
+CLI::Validator whole_number(std::uint64_t most) {
+  return {[most](const std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto [last, error] = std::from_chars(text.data(), end, value);
+            if (error == std::errc() && last == end && value <= most) return "";
+            return "'" + text + "' is no whole number from 0 to " + std::to_string(most);
+          },
+          "", "whole number"};
+}
+
+constexpr std::uint64_t kMostThreads = 1024;
+
+/// In [low, high]; CLI::Range takes NaN.
+CLI::Validator number_in(double low, double high) {
+  return {[low, high](const std::string& text) -> std::string {
+            double value = 0;
+            if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
+            return "'" + text + "' is no number in [" + std::to_string(low) + ", " +
+                   std::to_string(high) + "]";
+          },
+          "", "number"};
 }
 
 /// Runs the command with that many threads; a flow graph belongs to the arena that it is made in.
@@ -68,10 +101,15 @@ void add_run(CLI::App& app, RunCommand& run) {
                    "Other wiring than the config's, from pipelines/ (ransac, hough3d ...)")
       ->type_name("NAME");
   add_set(command, run.set);
-  command->add_option("--threads", run.threads, "Threads; 0: all cores")->capture_default_str();
-  command->add_option("--tokens", run.tokens, "Frames in flight; 0: 2 x threads")
+  command->add_option("--threads", run.threads, "Threads; 0: all cores")
+      ->check(whole_number(kMostThreads))
       ->capture_default_str();
-  command->add_option("--seed", run.seed, "Seed of all randomness")->capture_default_str();
+  command->add_option("--tokens", run.tokens, "Frames in flight; 0: 2 x threads")
+      ->check(whole_number(kMostThreads))
+      ->capture_default_str();
+  command->add_option("--seed", run.seed, "Seed of all randomness")
+      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
   command
       ->add_option("--cache", run.cache, "Folder for trained libraries; default ~/.cache/posevote")
       ->type_name("DIR");
@@ -131,14 +169,16 @@ void add_evaluate(CLI::App& app, EvaluateCommand& evaluate) {
       ->default_str("pose,drost,add,adi15")
       ->type_name("RULE,...");
   command->add_option("--visible", evaluate.visible, "Leave out instances less visible")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0, 1))
       ->capture_default_str();
   command
       ->add_option("--targets", evaluate.targets,
                    "Judge only these; default test_targets_bop19.json, if there; none: judge all")
       ->type_name("FILE");
-  command->add_option("--min-score", evaluate.min_score,
-                      "Count detections from this score up; curves and best F1 take all");
+  command
+      ->add_option("--min-score", evaluate.min_score,
+                   "Count detections from this score up; curves and best F1 take all")
+      ->check(number_in(-1e9, 1e9));
   command->add_option("--top", evaluate.top, "Only so many detections of an object in an image")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out", evaluate.out, "Folder for tables (CSV, JSON) and plots (SVG)")
@@ -186,7 +226,9 @@ void add_bench(CLI::App& app, BenchCommand& bench) {
   command->add_option("--repeat", bench.repeat, "Turns; the figures are medians")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--threads", bench.threads, "Threads; 0: all cores")->capture_default_str();
+  command->add_option("--threads", bench.threads, "Threads; 0: all cores")
+      ->check(whole_number(kMostThreads))
+      ->capture_default_str();
   command->add_option("--out", bench.out, "Also write the figures as JSON")->type_name("FILE");
   command
       ->add_option("--growth", bench.growth,
@@ -213,6 +255,7 @@ void add_inspection(CLI::App& app, Options& options) {
 }
 
 int dispatch(const CLI::App& app, const Options& options) {
+  if (app.got_subcommand("run") || app.got_subcommand("experiment")) end_in_order();
   if (app.got_subcommand("run"))
     return with_threads(options.run.threads, [&] { return run_command(options.run, interrupted); });
   if (app.got_subcommand("train"))
@@ -236,8 +279,6 @@ int dispatch(const CLI::App& app, const Options& options) {
 int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("posevote"));
   spdlog::set_pattern("%^%l%$: %v");
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
   CLI::App app("posevote finds known 3D objects in 3D scans.");
   app.require_subcommand(1);
   Options options;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -41,8 +43,7 @@ ModelFiles find_models(const RunCommand& command) {
   std::vector<std::string> files = command.models;
   if (files.empty() && !command.dataset.empty())
     files = list_dataset_models(command.dataset, command.split);
-  if (files.empty() == command.library.empty())
-    throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
+  if (files.empty()) throw std::invalid_argument("expected --models FILE... or --library FILE");
   return list_models(files);
 }
 
@@ -51,6 +52,8 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
   if (command.library.empty())
     return cached_library(configuration, find_models(command),
                           command.cache.empty() ? default_cache() : fs::path(command.cache));
+  if (!command.models.empty())
+    throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
   std::string why_not;
   auto library = load_library(command.library, library_key(configuration), why_not);
   if (!library)
@@ -58,20 +61,39 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
   return std::make_shared<const ModelLibrary>(std::move(*library));
 }
 
-/// A resumed run must be the same run: its parameters are compared with those on disk.
-void write_effective(const fs::path& out, const std::string& text, bool resume) {
-  const fs::path file = out / "effective.yaml";
-  if (resume && fs::exists(file)) {
-    std::ifstream old(file, std::ios::binary);
-    std::ostringstream before;
-    before << old.rdbuf();
-    if (before.str() != text)
-      throw std::invalid_argument(file.string() +
-                                  ": the run to resume had other parameters; choose another --out");
-    return;
+/// The config that repeats the run, with what else its results depend on as a comment.
+std::string describe_run(const RunCommand& command, const Configuration& configuration,
+                         const ModelLibrary& library) {
+  return "# posevote run --seed " + std::to_string(command.seed) + "; models " +
+         hash_library(library) + "\n" + effective_yaml(configuration);
+}
+
+/// A resumed run must be the same run.
+void check_same_run(const fs::path& file, const std::string& text) {
+  if (!fs::exists(file)) return;
+  std::ifstream old(file, std::ios::binary);
+  std::ostringstream before;
+  before << old.rdbuf();
+  if (before.str() != text)
+    throw std::invalid_argument(
+        file.string() +
+        ": the run to resume had other parameters, models or seed; choose another --out");
+}
+
+/// What goes wrong before the first frame is wrong with the arguments: nothing ran.
+template <class Prepare>
+auto before_any_frame(const Prepare& prepare) {
+  try {
+    return prepare();
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
   }
-  fs::create_directories(out);
-  write_text(file, text);
+}
+
+std::map<std::size_t, fs::path> files_of(const std::vector<SceneEntry>& scenes) {
+  std::map<std::size_t, fs::path> files;
+  for (const SceneEntry& scene : scenes) files[scene.number] = scene.file.path;
+  return files;
 }
 
 std::string nodes_json(const std::vector<graph::NodeTimes>& times) {
@@ -96,7 +118,7 @@ class Reporter {
       : command_(command),
         configuration_(configuration),
         scenes_(std::move(scenes)),
-        writer_(command.out, command.resume),
+        writer_(command.out, command.resume, files_of(scenes_)),
         trace_(node_names(configuration.scenes)) {
     std::erase_if(scenes_, [this](const SceneEntry& scene) {
       return writer_.answered().contains(scene.number);
@@ -183,23 +205,33 @@ int exit_status(const graph::RunSummary& summary, bool interrupted) {
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
   const Configuration configuration =
       load_configuration(command.config, command.set, dataset_defaults(command), command.pipeline);
+  if (configuration.models.nodes.empty())
+    throw std::invalid_argument(command.config +
+                                ": its pipeline has no `models`; expected one that "
+                                "finds them in scans, as pipelines/recognize.yaml");
   std::vector<SceneEntry> scenes = take_shard(find_scenes(command), command.shard);
   if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
-  const auto library = find_library(command, configuration);
+  const auto library = before_any_frame([&] { return find_library(command, configuration); });
   if (!library->index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
 
   const std::string constant =
       configuration.models.streams[std::size_t(configuration.models.result)].name;
   const auto constants = graph::fold_constants(configuration.scenes, {{constant, library}});
-  Reporter reporter(command, configuration, std::move(scenes));
-  write_effective(command.out, effective_yaml(configuration), command.resume);
+  const fs::path effective = fs::path(command.out) / "effective.yaml";
+  const std::string description = describe_run(command, configuration, *library);
+  if (command.resume) check_same_run(effective, description);
+  const auto reporter = before_any_frame([&] {
+    auto made = std::make_unique<Reporter>(command, configuration, std::move(scenes));
+    write_text(effective, description);
+    return made;
+  });
   const graph::RunOptions options{command.tokens, command.on_error == "stop", &interrupted};
   const graph::RunSummary summary = graph::run(
-      configuration.scenes, constants, reporter.count(),
-      [&reporter](std::size_t i) { return reporter.make_frame(i); }, options,
-      [&reporter](const graph::FrameResult& result) { reporter.report(result); });
-  reporter.finish();
+      configuration.scenes, constants, reporter->count(),
+      [&reporter](std::size_t i) { return reporter->make_frame(i); }, options,
+      [&reporter](const graph::FrameResult& result) { reporter->report(result); });
+  reporter->finish();
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
               command.out.c_str());
   return exit_status(summary, interrupted);

@@ -104,7 +104,14 @@ void hash_file(XXH3_state_t* state, const fs::path& path) {
 
 }  // namespace
 
-void save_library(const ModelLibrary& library, const fs::path& path, const std::string& key) {
+std::string hash_library(const ModelLibrary& library) {
+  const std::string payload = encode_library(library);
+  return hex(XXH3_128bits(payload.data(), payload.size()));
+}
+
+void save_library(const ModelLibrary& library, const fs::path& link, const std::string& key) {
+  const fs::path path = fs::is_symlink(link) ? fs::weakly_canonical(link) : link;
+  if (fs::exists(path) && !fs::is_regular_file(path)) fail(path, "is there, and no plain file");
   const std::string payload = encode_library(library);
   ByteWriter out;
   for (const char letter : kMagic) out.put(letter);

@@ -17,7 +17,8 @@
 namespace posevote {
 
 /// Writes a file of its own beside `path` and renames it, so that readers and other writers always
-/// see a whole file. Throws std::runtime_error naming the file if it cannot be written.
+/// see a whole file; a symbolic link stays one. Throws std::runtime_error naming the file if it
+/// cannot be written, or if a device or a folder is there.
 void save_library(const ModelLibrary& library, const std::filesystem::path& path,
                   const std::string& key);
 
@@ -26,6 +27,9 @@ void save_library(const ModelLibrary& library, const std::filesystem::path& path
 /// checked against its size before anything is allocated.
 std::optional<ModelLibrary> load_library(const std::filesystem::path& path, const std::string& key,
                                          std::string& why_not);
+
+/// XXH3-128 over all that a library holds: 32 hexadecimal digits.
+std::string hash_library(const ModelLibrary& library);
 
 /// XXH3-128 over the files' lengths and bytes, in this order, and the text: 32 hexadecimal digits.
 /// Throws std::runtime_error naming a file that cannot be read.

@@ -66,21 +66,37 @@ std::vector<ordered_json> read_frames(const fs::path& file) {
   return frames;
 }
 
-/// The rows of results.csv that belong to one of the frames: a killed run may have written a
-/// frame's rows, or half a row, without its line in results.json.
-std::string kept_rows(const fs::path& file, const std::vector<ordered_json>& frames) {
-  std::set<std::string> keys;
-  for (const ordered_json& frame : frames)
-    keys.insert(std::to_string(frame.at("scene_id").get<int>()) + "," +
-                std::to_string(frame.at("im_id").get<int>()) + ",");
-  std::string rows;
-  std::ifstream stream(file);
-  for (std::string text; std::getline(stream, text);) {
-    const std::size_t second = text.find(',', text.find(',') + 1);
-    if (second != std::string::npos && keys.contains(text.substr(0, second + 1)))
-      rows += text + "\n";
+/// Rows of results.csv from a line of results.json, which holds all of them: a killed run may have
+/// written half a row.
+std::string csv_rows(const ordered_json& json) {
+  FrameReport frame;
+  frame.file.scene_id = json.at("scene_id").get<int>();
+  frame.file.im_id = json.at("im_id").get<int>();
+  frame.seconds = json.at("seconds").get<double>();
+  Detections detections;
+  for (const ordered_json& item : json.at("detections")) {
+    Detection& found = detections.items.emplace_back();
+    found.obj_id = item.at("obj_id").get<int>();
+    found.score = item.at("score").get<double>();
+    for (int i = 0; i < 16; ++i)
+      found.T_scene_model.matrix()(i / 4, i % 4) = item.at("T_scene_model").at(i).get<double>();
   }
-  return rows;
+  return csv_rows(frame, detections);
+}
+
+/// Names only: the same scans may be reached by another path.
+void check_same_scans(const fs::path& results, const std::vector<ordered_json>& frames,
+                      const std::map<std::size_t, fs::path>& scans) {
+  for (const ordered_json& frame : frames) {
+    const auto scan = scans.find(frame.at("frame").get<std::size_t>());
+    if (scan == scans.end()) continue;
+    const std::string before = fs::path(frame.at("file").get<std::string>()).filename().string();
+    const auto now = ordered_json::parse(line(scan->second.filename().string()));
+    if (now != before)
+      throw std::invalid_argument(results.string() + ": frame " + std::to_string(scan->first) +
+                                  " is " + before + " there, now it is " + now.get<std::string>() +
+                                  ": the scans have changed; choose another --out");
+  }
 }
 
 void require(const std::ostream& stream, const fs::path& file) {
@@ -90,7 +106,9 @@ void require(const std::ostream& stream, const fs::path& file) {
 
 }  // namespace
 
-ResultsWriter::ResultsWriter(const fs::path& out, bool resume) : out_(out) {
+ResultsWriter::ResultsWriter(const fs::path& out, bool resume,
+                             const std::map<std::size_t, fs::path>& scans)
+    : out_(out) {
   const fs::path csv = out / "results.csv";
   const fs::path results = out / "results.json";
   if (!resume && (fs::exists(csv) || fs::exists(results)))
@@ -98,7 +116,9 @@ ResultsWriter::ResultsWriter(const fs::path& out, bool resume) : out_(out) {
                                 ": holds another run; choose another --out or give --resume");
   fs::create_directories(out);
   const std::vector<ordered_json> frames = read_frames(results);
-  const std::string rows = kept_rows(csv, frames);
+  check_same_scans(results, frames, scans);
+  std::string rows;
+  for (const ordered_json& frame : frames) rows += csv_rows(frame);
   // Old results are rewritten beside the old files, so that a crash here loses none of them.
   const fs::path new_csv = out / "results.csv.new";
   const fs::path new_results = out / "results.json.new";

@@ -33,9 +33,11 @@ struct FailureReport {
 
 class ResultsWriter {
  public:
-  /// Throws std::invalid_argument where `out` holds another run and `resume` is false, and
+  /// `scans`: the file of each frame. Throws std::invalid_argument, and leaves all as it is, where
+  /// `out` holds another run and `resume` is false, or where it holds frames of other files; and
   /// std::runtime_error where it cannot be written.
-  ResultsWriter(const std::filesystem::path& out, bool resume);
+  ResultsWriter(const std::filesystem::path& out, bool resume,
+                const std::map<std::size_t, std::filesystem::path>& scans = {});
 
   /// Frames that an earlier run answered; they are in the files already. Failed ones are not among
   /// them: a resumed run tries them again.

@@ -102,8 +102,54 @@ TEST_CASE("an unreadable scan keeps its number; shards and resumed runs agree wi
   REQUIRE(w.run("parts", w.scans_argument() + " --shard 1/3").status == 0);
   CHECK(w.run("parts", w.scans_argument()).status == 2);  // holds another run
   CHECK(w.run("parts", w.scans_argument() + " --resume --set segment_objects.nms=0.3").status == 2);
+  CHECK(w.run("parts", w.scans_argument() + " --resume --seed 9").status == 2);
+  CHECK(w.run("parts", "--scenes " + (w.scans / "000001.ply").string() + " --resume").status == 2);
+  CHECK(run_posevote(w.folder, "run demo --models " + (w.models / "*1.ply").string() + " --out " +
+                                   (w.folder / "parts").string() + " --resume " +
+                                   w.scans_argument())
+            .status == 2);
+  CHECK(frames("parts").size() == 1);  // nothing of it touched
   REQUIRE(w.run("parts", w.scans_argument() + " --resume").status == 0);
   CHECK(csv("parts") == csv("whole"));
+}
+
+TEST_CASE("effective.yaml repeats the run, other node types included", "[run]") {
+  const World& w = world();
+  const std::string one = "--scenes " + (w.scans / "000001.ply").string();
+  REQUIRE(w.run("fpfh", one + " --set describe_models.node=describe_fpfh").status == 0);
+  REQUIRE(run_posevote(w.folder, "run " + (w.folder / "fpfh/effective.yaml").string() +
+                                     " --models " + w.models.string() + " --out " +
+                                     (w.folder / "fpfh-again").string() + " " + one)
+              .status == 0);
+  CHECK(csv("fpfh-again") == csv("fpfh"));
+  CHECK(read_text(w.folder / "fpfh-again/effective.yaml") ==
+        read_text(w.folder / "fpfh/effective.yaml"));
+}
+
+TEST_CASE("arguments that contradict each other, or no run, end with status 2", "[run]") {
+  const World& w = world();
+  const auto refused = [&w](const std::string& arguments, const std::string& why) {
+    const CommandResult run = run_posevote(w.folder, arguments);
+    INFO(run.output);
+    CHECK(run.status == 2);
+    CHECK(run.output.find(why) != std::string::npos);
+  };
+  const std::string inputs = " --models " + w.models.string() + " " + w.scans_argument() +
+                             " --out " + (w.folder / "refused").string();
+  refused(
+      "run " + (fs::path(POSEVOTE_SOURCE_DIR) / "pipelines/train_models.yaml").string() + inputs,
+      "has no `models`");
+  refused("run demo --library some.library" + inputs, "one of them");
+  refused("run demo --threads 100000" + inputs, "--threads");
+  refused("run demo --seed -1" + inputs, "--seed");
+  w.folder.write("broken/obj_000007.ply", "ply\n");
+  refused("run demo --models " + (w.folder / "broken").string() + " " + w.scans_argument() +
+              " --out " + (w.folder / "refused").string(),
+          "obj_000007.ply");
+  refused("run " + w.scans.string() + inputs, "is a folder");
+  const std::string two = w.folder.write("two.yaml", "pipeline: recognize\n---\nmore: {x: 1}\n");
+  refused("check " + two, "two.yaml:3:1: starts another YAML document");
+  CHECK(!fs::exists(w.folder / "refused"));
 }
 
 TEST_CASE("the same bytes at any number of threads and tokens", "[run]") {

@@ -146,6 +146,18 @@ TEST_CASE("image sets: contradictions are named", "[dataset]") {
   CHECK_THAT(message_of(folder), Contains("gt.yml"));
 }
 
+TEST_CASE("a model and its models_info in different units are refused", "[dataset]") {
+  const TemporaryFolder folder;
+  write_sixd(folder);
+  CHECK(message_of(folder) == "accepted");
+  const std::string info = posevote::test::read_text(folder / "models/models_info.yml");
+  const std::size_t diameter = info.find("diameter: 130");
+  REQUIRE(diameter != std::string::npos);
+  folder.write("models/models_info.yml", std::string(info).replace(diameter, 13, "diameter: .13"));
+  CHECK_THAT(message_of(folder), Contains("obj_02.ply: is a box of diagonal 130 mm") &&
+                                     Contains("models_info says diameter 0.13 mm"));
+}
+
 TEST_CASE("poses of an image that is not there", "[dataset]") {
   const TemporaryFolder folder;
   write_sixd(folder);

@@ -15,6 +15,23 @@ namespace {
 namespace fs = std::filesystem;
 using dataset::fail;
 
+/// A diameter lies between the longest side and the diagonal of the bounding box. Far from there,
+/// one of the two is in another unit, and every pose would pass or fail.
+void check_diameter(const TrueObject& object, const fs::path& model) {
+  const Eigen::RowVector3f extent =
+      object.points.colwise().maxCoeff() - object.points.colwise().minCoeff();
+  const double side = static_cast<double>(extent.maxCoeff()),
+               diagonal = static_cast<double>(extent.norm());
+  if (object.diameter > 0.5 * side && object.diameter < 2 * diagonal) return;
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "is a box of diagonal %.4g mm, but models_info says diameter %.4g mm: is one of them "
+      "not in mm?",
+      1e3 * diagonal, 1e3 * object.diameter);
+  fail(model, text);
+}
+
 /// The vertices of the models that occur.
 void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
                  GroundTruth& truth) {
@@ -36,6 +53,7 @@ void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
     }
     if (object.points.rows() == 0) fail(file->second, "has no points");
     object.name = file->second.stem().string();
+    if (object.diameter > 0) check_diameter(object, file->second);
     if (!(object.diameter > 0)) dataset::measure_object(object);
     if (!(object.diameter > 0)) fail(file->second, "has no extent");
   }

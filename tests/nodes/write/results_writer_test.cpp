@@ -109,6 +109,26 @@ TEST_CASE("resuming keeps answered frames and drops what a killed run left half 
   CHECK(json(folder / "out/failures.json").empty());
 }
 
+TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touches a file",
+          "[write]") {
+  const TemporaryFolder folder;
+  {
+    ResultsWriter writer(folder / "out", false);
+    writer.write(frame(0), one_chef(), "[]");
+    writer.write(FailureReport{1, "b.ply", "load_scene", "empty"});
+  }
+  std::filesystem::remove(folder / "out/results.csv");
+  CHECK_THROWS_WITH(
+      ResultsWriter(folder / "out", true, {{0, "elsewhere/other.ply"}}),
+      Catch::Contains("results.json: frame 0 is ") && Catch::Contains("now it is other.ply"));
+  CHECK(json(folder / "out/failures.json").size() == 1);
+  CHECK(!std::filesystem::exists(folder / "out/results.csv"));
+  const ResultsWriter writer(folder / "out", true,
+                             {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
+  CHECK(read_text(folder / "out/results.csv") ==
+        "scene_id,im_id,obj_id,score,R,t,time\n" + csv_rows(frame(0), one_chef()));
+}
+
 TEST_CASE("a full disk keeps what is written and names the file", "[write]") {
   const TemporaryFolder folder;
   AppendJson list(folder / "list.json", "[", "\n]\n");
