@@ -37,6 +37,13 @@ std::string find_pipeline(const std::string& name, const std::string& config) {
   return "";
 }
 
+/// What finds the pipeline again from anywhere: its name, or the path of one of the user's own.
+std::string lasting_name(const PipelineDescription& pipeline) {
+  const fs::path file = pipeline.where.file;
+  if (file.empty() || file == find_pipeline(pipeline.name, "/")) return pipeline.name;
+  return fs::absolute(file).replace_extension().string();
+}
+
 PipelineDescription read_named(const std::string& name, const graph::Location& where,
                                const std::string& config, std::vector<Problem>& problems) {
   const std::string file = find_pipeline(name, config);
@@ -122,7 +129,7 @@ Configuration load_configuration(const std::string& config, const std::vector<st
   graph::resolve_likes(models, nullptr, problems);
   graph::resolve_likes(scenes, &models, problems);
 
-  result.pipeline = scenes.name;
+  result.pipeline = lasting_name(scenes);
   std::map<std::string, graph::StreamType> constants;
   if (!models.nodes.empty()) {
     result.models = graph::make_plan(models, {}, problems);

@@ -11,7 +11,7 @@ namespace posevote {
 
 struct Configuration {
   std::string name;      ///< of the config file, without folder and ending
-  std::string pipeline;  ///< what it names
+  std::string pipeline;  ///< its name in pipelines/, or the path of another without its ending
   graph::Plan scenes;    ///< runs once a scan
   graph::Plan models;    ///< runs once, makes the library; no nodes where the pipeline needs none
 };

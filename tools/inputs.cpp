@@ -58,16 +58,6 @@ int number_of(const std::string& digits) {
   return error == std::errc() && end == digits.data() + digits.size() ? value : -1;
 }
 
-/// What is wrong with a data set is, for a run, wrong with its arguments.
-template <class Read>
-auto as_arguments(const Read& read) {
-  try {
-    return read();
-  } catch (const std::runtime_error& error) {
-    throw std::invalid_argument(error.what());
-  }
-}
-
 /// Names after the file, with the number in front where two files share a name.
 void name_scenes(std::vector<SceneEntry>& scenes) {
   std::map<std::string, int> uses;

@@ -3,12 +3,23 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "nodes/data/files.hpp"
 
 namespace posevote {
+
+/// What goes wrong before the first frame is wrong with the arguments: nothing ran.
+template <class Prepare>
+auto as_arguments(const Prepare& prepare) {
+  try {
+    return prepare();
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
 
 /// One scan of a batch. `number` counts over the whole batch, shards and resumed runs included.
 struct SceneEntry {

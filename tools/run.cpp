@@ -80,16 +80,6 @@ void check_same_run(const fs::path& file, const std::string& text) {
         ": the run to resume had other parameters, models or seed; choose another --out");
 }
 
-/// What goes wrong before the first frame is wrong with the arguments: nothing ran.
-template <class Prepare>
-auto before_any_frame(const Prepare& prepare) {
-  try {
-    return prepare();
-  } catch (const std::runtime_error& error) {
-    throw std::invalid_argument(error.what());
-  }
-}
-
 std::map<std::size_t, fs::path> files_of(const std::vector<SceneEntry>& scenes) {
   std::map<std::size_t, fs::path> files;
   for (const SceneEntry& scene : scenes) files[scene.number] = scene.file.path;
@@ -211,7 +201,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
                                 "finds them in scans, as pipelines/recognize.yaml");
   std::vector<SceneEntry> scenes = take_shard(find_scenes(command), command.shard);
   if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
-  const auto library = before_any_frame([&] { return find_library(command, configuration); });
+  const auto library = as_arguments([&] { return find_library(command, configuration); });
   if (!library->index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
 
@@ -221,7 +211,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
   if (command.resume) check_same_run(effective, description);
-  const auto reporter = before_any_frame([&] {
+  const auto reporter = as_arguments([&] {
     auto made = std::make_unique<Reporter>(command, configuration, std::move(scenes));
     write_text(effective, description);
     return made;

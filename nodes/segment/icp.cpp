@@ -138,16 +138,15 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
     const std::vector<Pair> pairs =
         find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance),
                    few ? kFewSamples : kSamples);
-    if (pairs.size() < kFewestPairs) return iteration == 0 ? start : T_scene_model;
+    if (pairs.size() < kFewestPairs) break;
     const Pivot pivot = find_pivot(pairs);
-    if (!(pivot.lever > 0)) return T_scene_model;
+    if (!(pivot.lever > 0)) break;
     const Vector6d step = limit_step(solve_step(pairs, pivot), pivot.lever, distance);
-    if (!step.allFinite()) return T_scene_model;
+    if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
-    if (distance <= end && step.norm() <= (few ? kSlow : kStill) * end) {
-      if (!few) break;
-      few = false;
-    }
+    const bool is_done = distance <= end && step.norm() <= (few ? kSlow : kStill) * end;
+    if (is_done && !few) break;
+    few = few && !is_done;
     distance = std::max(end, distance * kShrink);
   }
   return T_scene_model;

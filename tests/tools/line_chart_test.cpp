@@ -12,6 +12,8 @@ TEST_CASE("ticks are round and within the range", "[plot]") {
   CHECK(ticks(0, 1, false) == std::vector<double>{0, 0.2, 0.4, 0.2 * 3, 0.8, 1});
   CHECK(ticks(3, 97, false) == std::vector<double>{20, 40, 60, 80});
   CHECK(ticks(0.5, 2000, true) == std::vector<double>{1, 10, 100, 1000});
+  CHECK(ticks(1, 30, true) == std::vector<double>{1, 2, 5, 10, 20});
+  CHECK(ticks(1, 2, true).size() == 6);  // as good as linear
   CHECK(ticks(1, 1, false).empty());
   CHECK(ticks(0, std::numeric_limits<double>::quiet_NaN(), false).empty());
 }

@@ -160,17 +160,29 @@ std::string body(const Chart& chart, std::size_t place) {
   return svg + "</g>\n" + legend(chart);
 }
 
+/// These multiples of the powers of ten, of many powers only some.
+std::vector<double> decades(double low, double high, const std::vector<double>& multiples) {
+  std::vector<double> marks;
+  const double first = std::floor(std::log10(low)), last = std::log10(high) + 1e-9;
+  const double step = std::max(1.0, std::ceil((last - first) / 8));
+  for (int i = 0; first + i * step <= last; ++i)
+    for (const double multiple : multiples)
+      if (const double mark = multiple * std::pow(10.0, first + i * step);
+          mark >= low * (1 - 1e-9) && mark <= high * (1 + 1e-9))
+        marks.push_back(mark);
+  return marks;
+}
+
 }  // namespace
 
 std::vector<double> ticks(double low, double high, bool logarithmic) {
   std::vector<double> marks;
   if (!std::isfinite(low) || !std::isfinite(high) || !(high > low)) return marks;
   if (logarithmic) {
-    const double first = std::ceil(std::log10(low) - 1e-9), last = std::log10(high) + 1e-9;
-    const double step = std::max(1.0, std::ceil((last - first) / 8));
-    for (int i = 0; first + i * step <= last; ++i)
-      marks.push_back(std::pow(10.0, first + i * step));
-    return marks;
+    marks = decades(low, high, {1});
+    // Less than two decades need marks between; less than half a decade is nearly linear.
+    if (marks.size() < 3) marks = decades(low, high, {1, 2, 5});
+    return marks.size() < 3 ? ticks(low, high, false) : marks;
   }
   const double rough = (high - low) / 5, power = std::pow(10.0, std::floor(std::log10(rough)));
   const double ratio = rough / power;
