@@ -113,6 +113,9 @@ TEST_CASE("a folder that holds something is refused", "[simulate]") {
   CHECK_THROWS_AS(simulate(spec, folder / "out"), std::invalid_argument);
   CHECK_THROWS_AS(simulate(spec, spec), std::invalid_argument);
   CHECK(all_files(folder / "out").size() == 1);
+  folder.write("new.unfinished/precious.txt", "x");
+  CHECK_THROWS_WITH(simulate(spec, folder / "new"), Catch::Contains("precious.txt: is in the way"));
+  CHECK(all_files(folder / "new.unfinished").size() == 1);
 }
 
 TEST_CASE("all problems of a spec are reported, with their places", "[simulate]") {

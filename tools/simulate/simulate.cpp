@@ -158,17 +158,28 @@ void make_images(const Studio& studio, std::size_t step, BopWriter& writer) {
               }));
 }
 
+/// What a simulation that was stopped left; somebody else's folder stays.
+void remove_unfinished(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const fs::path name = entry.path().filename();
+        name != "models" && name != "test" && name != "scans" && name != "test_targets_bop19.json")
+      throw std::invalid_argument(entry.path().string() +
+                                  ": is in the way, and no simulation made it; move it");
+  fs::remove_all(folder);
+}
+
 }  // namespace
 
 void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
   const Spec spec = read_spec(spec_file);
   if (fs::exists(out) && (!fs::is_directory(out) || !fs::is_empty(out)))
     throw std::invalid_argument(out.string() + ": is not an empty folder; choose another --out");
-  const Studio studio = open_studio(spec);
   // Under its name there is a whole set or none.
   const fs::path folder = out.has_filename() ? out : out.parent_path();
   const fs::path unfinished = folder.string() + ".unfinished";
-  fs::remove_all(unfinished);
+  remove_unfinished(unfinished);
+  const Studio studio = open_studio(spec);
   BopWriter writer(unfinished);
   for (std::size_t i = 0; i < studio.models.size(); ++i)
     writer.add_model(static_cast<int>(i) + 1, *studio.models[i],
