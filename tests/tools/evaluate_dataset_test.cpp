@@ -24,9 +24,9 @@ void write_box(const std::filesystem::path& file) {
   write_ply(file, bar);
 }
 
-std::string message_of(const TemporaryFolder& folder) {
+std::string message_of(const TemporaryFolder& folder, const std::string& targets = "") {
   try {
-    read_ground_truth(folder.path(), "test");
+    read_ground_truth(folder.path(), "test", targets);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -144,6 +144,20 @@ TEST_CASE("image sets: contradictions are named", "[dataset]") {
   CHECK_THAT(message_of(folder), Contains("gt.yml: image 7, instance 0") && Contains("cam_R_m2c"));
   folder.write("test/05/gt.yml", "7: [\n");
   CHECK_THAT(message_of(folder), Contains("gt.yml"));
+}
+
+TEST_CASE("numbers that are none, and two images of one number, are named", "[dataset]") {
+  const TemporaryFolder folder;
+  write_sixd(folder);
+  const auto targets = [&folder](const std::string& list) {
+    return message_of(folder, folder.write("targets.json", list));
+  };
+  CHECK_THAT(targets("[]"), Contains("targets.json: is no JSON list of targets"));
+  CHECK_THAT(targets(R"([{"scene_id": 5, "im_id": 7, "obj_id": 2, "inst_count": -1}])"),
+             Contains("entry 0: inst_count is -1, expected a whole number from 1 up"));
+  CHECK_THAT(targets(R"([{"scene_id": 5, "im_id": 7, "obj_id": 2.7}])"), Contains("obj_id is 2.7"));
+  folder.write("test/05/depth/7.png", "");
+  CHECK_THAT(message_of(folder), Contains("7.png: is image 7, as is "));
 }
 
 TEST_CASE("a model and its models_info in different units are refused", "[dataset]") {

@@ -2,7 +2,9 @@
 #include "tools/evaluate/dataset.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include "graph/schema.hpp"
@@ -67,6 +69,15 @@ std::map<int, fs::path> number_models(const std::vector<fs::path>& files) {
            "has obj_id " + std::to_string(first->first) + ", as has " + first->second.string());
   }
   return models;
+}
+
+int whole(const nlohmann::json& entry, const std::string& name, int least) {
+  const nlohmann::json& value = entry.at(name);
+  if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
+      value.get<std::int64_t>() > std::numeric_limits<int>::max())
+    throw std::invalid_argument(name + " is " + value.dump() + ", expected a whole number from " +
+                                std::to_string(least) + " up");
+  return value.get<int>();
 }
 
 void measure_object(TrueObject& object) {

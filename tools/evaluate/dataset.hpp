@@ -34,6 +34,8 @@ namespace dataset {
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what);
 /// The number that a name of digits says, or -1.
 int number_of(const std::string& digits);
+/// entry[name], which must be a whole number of at least `least`. Throws std::invalid_argument.
+int whole(const nlohmann::json& entry, const std::string& name, int least = 0);
 nlohmann::json read_json(const std::filesystem::path& file);
 /// The entries of a folder, sorted by path; none where there is no such folder.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);

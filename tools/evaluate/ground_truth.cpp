@@ -63,14 +63,15 @@ void read_targets(GroundTruth& truth, const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) fail(file, "cannot be read: no such file?");
   const nlohmann::json list = nlohmann::json::parse(stream, nullptr, false);
-  if (!list.is_array()) fail(file, "is no JSON list");
+  if (!list.is_array() || list.empty()) fail(file, "is no JSON list of targets");
   for (std::size_t i = 0; i < list.size(); ++i) {
     try {
       const nlohmann::json& entry = list[i];
-      const int scene = entry.at("scene_id"), image = entry.at("im_id"),
-                object = entry.at("obj_id");
-      truth.targets[{scene, image, object}] = entry.value("inst_count", 1);
-    } catch (const nlohmann::json::exception& error) {
+      const int scene = dataset::whole(entry, "scene_id"), image = dataset::whole(entry, "im_id"),
+                object = dataset::whole(entry, "obj_id");
+      truth.targets[{scene, image, object}] =
+          entry.contains("inst_count") ? dataset::whole(entry, "inst_count", 1) : 1;
+    } catch (const std::exception& error) {
       fail(file, "entry " + std::to_string(i) + ": " + error.what());
     }
   }

@@ -73,7 +73,7 @@ TrueObject read_object(const json& info) {
 TrueInstance read_instance(const json& entry) {
   const std::vector<double> r = numbers(entry.at("cam_R_m2c"), 9, "cam_R_m2c");
   TrueInstance instance;
-  instance.obj_id = entry.at("obj_id").get<int>();
+  instance.obj_id = whole(entry, "obj_id");
   instance.T_scene_model = make_pose({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]},
                                      metres(entry.at("cam_t_m2c"), "cam_t_m2c"));
   return instance;
@@ -112,16 +112,18 @@ std::map<int, fs::path> scene_folders(const fs::path& root) {
   return folders;
 }
 
+std::string image_name(int im_id) { return "image " + std::to_string(im_id); }
+
 std::map<int, fs::path> depth_images(const fs::path& scene) {
   std::map<int, fs::path> images;
   for (const fs::path& entry : entries_of(scene / "depth")) {
     const int im_id = number_of(entry.stem().string());
-    if (im_id >= 0 && entry.extension() == ".png") images.emplace(im_id, entry);
+    if (im_id < 0 || entry.extension() != ".png") continue;
+    const auto [first, is_new] = images.emplace(im_id, entry);
+    if (!is_new) fail(entry, "is " + image_name(im_id) + ", as is " + first->second.string());
   }
   return images;
 }
-
-std::string image_name(int im_id) { return "image " + std::to_string(im_id); }
 
 /// The visible fractions of an image's instances, as many as there are instances.
 std::vector<double> read_visible(const std::map<int, json>& infos, const fs::path& file, int im_id,
