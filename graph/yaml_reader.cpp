@@ -208,11 +208,10 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
 }
 
 bool is_pipeline(const std::string& file) {
-  if (std::filesystem::is_directory(file)) return false;  // likewise
   try {
     const YAML::Node root = YAML::LoadFile(file);
     return root.IsMap() && root["nodes"].IsDefined();
-  } catch (const YAML::Exception&) {
+  } catch (const std::exception&) {
     return false;  // read_config reports it, with the place
   }
 }

@@ -80,16 +80,14 @@ graph::StreamType result_type(const graph::Plan& plan) {
 }
 
 void emit_parameters(YAML::Emitter& out, const graph::Plan& plan) {
-  const auto parameters = graph::effective_parameters(plan);
+  auto parameters = graph::effective_parameters(plan);
   for (const graph::PlannedNode& node : plan.nodes) {
-    const auto values = parameters.find(node.name);
+    const auto& values = parameters[node.name];
     const bool is_renamed = node.spec->name != node.name;
-    if (values == parameters.end() && (node.like || !is_renamed)) continue;
+    if (node.like || (values.empty() && !is_renamed)) continue;
     out << YAML::Key << node.name << YAML::Value << YAML::BeginMap;
     if (is_renamed) out << YAML::Key << "node" << YAML::Value << node.spec->name;
-    if (values != parameters.end())
-      for (const auto& [key, value] : values->second)
-        out << YAML::Key << key << YAML::Value << value;
+    for (const auto& [key, value] : values) out << YAML::Key << key << YAML::Value << value;
     out << YAML::EndMap;
   }
 }

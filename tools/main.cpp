@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "graph/problem.hpp"
+#include "graph/schema.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/commands.hpp"
 #include "tools/experiment/experiment.hpp"
@@ -35,13 +36,15 @@ void end_in_order() {
   std::signal(SIGTERM, on_interrupt);
 }
 
-/// Decimal digits alone, up to `most`: CLI11 takes signs, other bases and what overflows.
+/// Decimal digits alone, up to `most`: CLI11 takes signs, other bases ("010" is 8) and what
+/// overflows.
 CLI::Validator whole_number(std::uint64_t most) {
   return {[most](const std::string& text) -> std::string {
             std::uint64_t value = 0;
             const char* end = text.data() + text.size();
             const auto [last, error] = std::from_chars(text.data(), end, value);
-            if (error == std::errc() && last == end && value <= most) return "";
+            const bool is_octal = text.size() > 1 && text.front() == '0';
+            if (error == std::errc() && last == end && value <= most && !is_octal) return "";
             return "'" + text + "' is no whole number from 0 to " + std::to_string(most);
           },
           "", "whole number"};
@@ -49,13 +52,12 @@ CLI::Validator whole_number(std::uint64_t most) {
 
 constexpr std::uint64_t kMostThreads = 1024;
 
-/// In [low, high]; CLI::Range takes NaN.
+/// As nodes' parameters are read; CLI::Range takes NaN.
 CLI::Validator number_in(double low, double high) {
-  return {[low, high](const std::string& text) -> std::string {
-            double value = 0;
-            if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
-            return "'" + text + "' is no number in [" + std::to_string(low) + ", " +
-                   std::to_string(high) + "]";
+  return {[range = graph::in_range(low, high)](const std::string& text) -> std::string {
+            const auto value = graph::Scalar<double>::parse(text);
+            if (value && !range.violated_by(*value)) return "";
+            return "'" + text + "' is no number " + range.text();
           },
           "", "number"};
 }

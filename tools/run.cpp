@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -211,17 +210,17 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
   if (command.resume) check_same_run(effective, description);
-  const auto reporter = as_arguments([&] {
-    auto made = std::make_unique<Reporter>(command, configuration, std::move(scenes));
-    write_text(effective, description);
-    return made;
-  });
+  Reporter reporter =
+      as_arguments([&] { return Reporter(command, configuration, std::move(scenes)); });
+  // A resumed run has it; a full disk must not take it.
+  if (!command.resume || !fs::exists(effective))
+    as_arguments([&] { write_text(effective, description); });
   const graph::RunOptions options{command.tokens, command.on_error == "stop", &interrupted};
   const graph::RunSummary summary = graph::run(
-      configuration.scenes, constants, reporter->count(),
-      [&reporter](std::size_t i) { return reporter->make_frame(i); }, options,
-      [&reporter](const graph::FrameResult& result) { reporter->report(result); });
-  reporter->finish();
+      configuration.scenes, constants, reporter.count(),
+      [&reporter](std::size_t i) { return reporter.make_frame(i); }, options,
+      [&reporter](const graph::FrameResult& result) { reporter.report(result); });
+  reporter.finish();
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
               command.out.c_str());
   return exit_status(summary, interrupted);

@@ -33,6 +33,10 @@ std::string hex(XXH128_hash_t hash) {
   return text;
 }
 
+std::string checksum_of(std::string_view payload) {
+  return hex(XXH3_128bits(payload.data(), payload.size()));
+}
+
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
 }
@@ -76,7 +80,7 @@ ModelLibrary parse(std::string_view bytes, const std::string& key) {
     throw std::runtime_error("was made from other models or with other parameters");
   const std::string_view checksum = in.get_text();
   const std::string_view payload = in.get_text();
-  if (!in.rest().empty() || hex(XXH3_128bits(payload.data(), payload.size())) != checksum)
+  if (!in.rest().empty() || checksum_of(payload) != checksum)
     throw std::runtime_error("is damaged: its checksum is wrong");
   return decode_library(payload);
 }
@@ -105,8 +109,7 @@ void hash_file(XXH3_state_t* state, const fs::path& path) {
 }  // namespace
 
 std::string hash_library(const ModelLibrary& library) {
-  const std::string payload = encode_library(library);
-  return hex(XXH3_128bits(payload.data(), payload.size()));
+  return checksum_of(encode_library(library));
 }
 
 void save_library(const ModelLibrary& library, const fs::path& link, const std::string& key) {
@@ -117,7 +120,7 @@ void save_library(const ModelLibrary& library, const fs::path& link, const std::
   for (const char letter : kMagic) out.put(letter);
   out.put(kVersion);
   out.put(key);
-  out.put(hex(XXH3_128bits(payload.data(), payload.size())));
+  out.put(checksum_of(payload));
   out.put(payload);
   const fs::path temporary = unique_neighbour(path);
   std::error_code ignored;

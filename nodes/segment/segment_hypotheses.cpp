@@ -38,7 +38,7 @@ Proposals propose_from(const Hypotheses& object, double min_density) {
                 modes.push_back(mode_of(hypothesis, *object.model));
             return modes;
           },
-          [](const PoseMode& mode) { return mode; }, false};
+          [](const PoseMode& mode) { return mode; }};
 }
 
 Detections segment_hypotheses(const PerObject<Hypotheses>& objects,

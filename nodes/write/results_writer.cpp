@@ -84,6 +84,13 @@ std::string csv_rows(const ordered_json& json) {
   return csv_rows(frame, detections);
 }
 
+[[noreturn]] void fail_changed(const fs::path& results, std::size_t frame,
+                               const std::string& before, const std::string& now) {
+  throw std::invalid_argument(results.string() + ": frame " + std::to_string(frame) + " is " +
+                              before + " there, now it is " + now +
+                              ": the scans have changed; choose another --out");
+}
+
 /// Names only: the same scans may be reached by another path.
 void check_same_scans(const fs::path& results, const std::vector<ordered_json>& frames,
                       const std::map<std::size_t, fs::path>& scans) {
@@ -91,11 +98,8 @@ void check_same_scans(const fs::path& results, const std::vector<ordered_json>& 
     const auto scan = scans.find(frame.at("frame").get<std::size_t>());
     if (scan == scans.end()) continue;
     const std::string before = fs::path(frame.at("file").get<std::string>()).filename().string();
-    const auto now = ordered_json::parse(line(scan->second.filename().string()));
-    if (now != before)
-      throw std::invalid_argument(results.string() + ": frame " + std::to_string(scan->first) +
-                                  " is " + before + " there, now it is " + now.get<std::string>() +
-                                  ": the scans have changed; choose another --out");
+    const std::string now = scan->second.filename().string();
+    if (line(now) != line(before)) fail_changed(results, scan->first, before, now);
   }
 }
 

@@ -142,6 +142,7 @@ TEST_CASE("arguments that contradict each other, or no run, end with status 2", 
   refused("run demo --library some.library" + inputs, "one of them");
   refused("run demo --threads 100000" + inputs, "--threads");
   refused("run demo --seed -1" + inputs, "--seed");
+  refused("run demo --seed 010" + inputs, "--seed");
   w.folder.write("broken/obj_000007.ply", "ply\n");
   refused("run demo --models " + (w.folder / "broken").string() + " " + w.scans_argument() +
               " --out " + (w.folder / "refused").string(),

@@ -53,8 +53,10 @@ void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
     }
     if (object.points.rows() == 0) fail(file->second, "has no points");
     object.name = file->second.stem().string();
-    if (object.diameter > 0) check_diameter(object, file->second);
-    if (!(object.diameter > 0)) dataset::measure_object(object);
+    if (object.diameter > 0)
+      check_diameter(object, file->second);
+    else
+      dataset::measure_object(object);
     if (!(object.diameter > 0)) fail(file->second, "has no extent");
   }
 }

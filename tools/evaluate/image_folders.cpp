@@ -100,30 +100,32 @@ std::map<int, json> by_image(const ImageFolders& names, const fs::path& file) {
   return images;
 }
 
+void add_once(std::map<int, fs::path>& entries, int number, const fs::path& entry,
+              const std::string& kind) {
+  const auto [first, is_new] = entries.emplace(number, entry);
+  if (!is_new)
+    fail(entry, "is " + kind + " " + std::to_string(number) + ", as is " + first->second.string());
+}
+
 std::map<int, fs::path> scene_folders(const fs::path& root) {
   std::map<int, fs::path> folders;
   for (const fs::path& entry : entries_of(root)) {
     const int scene_id = number_of(entry.filename().string());
-    if (scene_id < 0 || !fs::is_directory(entry)) continue;
-    const auto [first, is_new] = folders.emplace(scene_id, entry);
-    if (!is_new)
-      fail(entry, "is scene " + std::to_string(scene_id) + ", as is " + first->second.string());
+    if (scene_id >= 0 && fs::is_directory(entry)) add_once(folders, scene_id, entry, "scene");
   }
   return folders;
 }
-
-std::string image_name(int im_id) { return "image " + std::to_string(im_id); }
 
 std::map<int, fs::path> depth_images(const fs::path& scene) {
   std::map<int, fs::path> images;
   for (const fs::path& entry : entries_of(scene / "depth")) {
     const int im_id = number_of(entry.stem().string());
-    if (im_id < 0 || entry.extension() != ".png") continue;
-    const auto [first, is_new] = images.emplace(im_id, entry);
-    if (!is_new) fail(entry, "is " + image_name(im_id) + ", as is " + first->second.string());
+    if (im_id >= 0 && entry.extension() == ".png") add_once(images, im_id, entry, "image");
   }
   return images;
 }
+
+std::string image_name(int im_id) { return "image " + std::to_string(im_id); }
 
 /// The visible fractions of an image's instances, as many as there are instances.
 std::vector<double> read_visible(const std::map<int, json>& infos, const fs::path& file, int im_id,
