@@ -20,9 +20,7 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach)
       gone_(static_cast<std::size_t>(scan.points.rows()), 0),
       viewpoint_(scan.viewpoint),
       single_view_(single_view),
-      reach_(reach),
-      near_(points_, reach),
-      far_(points_, reach) {
+      index_(points_, reach) {
   for (std::size_t i = 0; i < gone_.size(); ++i) {
     const bool usable = normals_.row(static_cast<Eigen::Index>(i)).squaredNorm() > 0.5F;
     gone_[i] = static_cast<char>(!usable);
@@ -42,14 +40,7 @@ bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
 
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
                                                    float distance) const {
-  std::optional<Neighbour> best = near_.nearest(point, distance, gone_);
-  if (best || distance <= reach_) return best;
-  far_.for_each_within(point, distance, [this, &best](std::uint32_t index, float squared) {
-    if (gone_[index]) return;
-    if (!best || squared < best->squared || (squared == best->squared && index < best->index))
-      best = Neighbour{index, squared};
-  });
-  return best;
+  return index_.nearest(point, distance, gone_);
 }
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/prepare/neighbourhoods.hpp"
+#include "nodes/prepare/nearest_index.hpp"
 
 namespace posevote {
 
@@ -45,9 +45,7 @@ class ScanSurface {
   std::vector<char> gone_;  // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;
   bool single_view_;
-  float reach_;
-  Neighbourhoods near_;  ///< up to `reach`
-  PointGrid far_;        ///< beyond
+  NearestIndex index_;
 };
 
 }  // namespace posevote

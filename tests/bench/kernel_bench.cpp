@@ -18,7 +18,7 @@
 #include "nodes/data/votes.hpp"
 #include "nodes/load/read_cloud.hpp"
 #include "nodes/match/descriptor_index.hpp"
-#include "nodes/prepare/neighbourhoods.hpp"
+#include "nodes/prepare/nearest_index.hpp"
 #include "nodes/segment/icp.hpp"
 #include "nodes/segment/measure_fit.hpp"
 #include "nodes/write/write_ply.hpp"
@@ -145,9 +145,9 @@ PointMatrix posed_points() {
          T.translation().transpose();
 }
 
-void nearest_by_neighbourhoods(benchmark::State& state) {
+void nearest_by_index(benchmark::State& state) {
   const PointMatrix& points = setting().scan.cloud.points;
-  const Neighbourhoods near(points, 2 * kResolution);
+  const NearestIndex near(points, 2 * kResolution);
   const std::vector<char> shown(static_cast<std::size_t>(points.rows()), 0);
   const PointMatrix queries = posed_points();
   for (auto _ : state)
@@ -165,9 +165,9 @@ void nearest_by_grid(benchmark::State& state) {
   count_items(state, queries.rows());
 }
 
-void build_neighbourhoods(benchmark::State& state) {
+void build_nearest_index(benchmark::State& state) {
   const PointMatrix& points = setting().scan.cloud.points;
-  for (auto _ : state) benchmark::DoNotOptimize(Neighbourhoods(points, 2 * kResolution));
+  for (auto _ : state) benchmark::DoNotOptimize(NearestIndex(points, 2 * kResolution));
   count_items(state, points.rows());
 }
 
@@ -207,8 +207,8 @@ BENCHMARK_CAPTURE(describe, point_pairs, std::string("describe_point_pairs"))
 BENCHMARK_CAPTURE(describe, shot_pcl, std::string("describe_shot"))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(match, exact, std::string("exact"))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(match, kd_tree_flann, std::string("kd_tree"))->Unit(benchmark::kMillisecond);
-BENCHMARK(build_neighbourhoods)->Unit(benchmark::kMillisecond);
-BENCHMARK(nearest_by_neighbourhoods)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_nearest_index)->Unit(benchmark::kMillisecond);
+BENCHMARK(nearest_by_index)->Unit(benchmark::kMillisecond);
 BENCHMARK(nearest_by_grid)->Unit(benchmark::kMillisecond);
 BENCHMARK(outline)->Unit(benchmark::kMillisecond);
 BENCHMARK(score_pose)->Unit(benchmark::kMillisecond);

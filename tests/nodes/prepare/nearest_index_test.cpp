@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/prepare/neighbourhoods.hpp"
+#include "nodes/prepare/nearest_index.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -33,15 +33,15 @@ PointMatrix random_points(Eigen::Index count, float size, std::mt19937& random) 
 }
 
 void check_against_brute_force(const PointMatrix& points, float spread, std::mt19937& random) {
-  const Neighbourhoods near(points, kReach);
+  const NearestIndex near(points, kReach);
   std::vector<char> hidden(static_cast<std::size_t>(points.rows()));
   for (char& one : hidden) one = static_cast<char>(random() % 4 == 0);
   std::uniform_real_distribution<float> place(-spread, spread), share(0, 1);
   int found = 0;
   for (int q = 0; q < 3000; ++q) {
     const Eigen::Vector3f center(place(random), place(random), place(random));
-    const float distance = q % 3 == 0 ? 2 * kReach : kReach * share(random);
-    const auto expected = by_brute_force(points, center, std::min(distance, kReach), hidden);
+    const float distance = (q % 3 == 0 ? 4 * kReach : kReach) * share(random);
+    const auto expected = by_brute_force(points, center, distance, hidden);
     const auto got = near.nearest(center, distance, hidden);
     REQUIRE(got.has_value() == expected.has_value());
     if (!got) continue;
@@ -54,7 +54,7 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
 
 }  // namespace
 
-TEST_CASE("the nearest point within reach is that of brute force", "[prepare]") {
+TEST_CASE("the nearest point within a distance is that of brute force", "[prepare]") {
   std::mt19937 random(1);
   check_against_brute_force(random_points(3000, 0.05F, random), 0.06F, random);
 }
@@ -77,11 +77,12 @@ TEST_CASE("an outlier far away costs no exactness", "[prepare]") {
 
 TEST_CASE("nothing is near nothing", "[prepare]") {
   const PointMatrix none(0, 3), one = PointMatrix::Zero(1, 3);
-  CHECK(!Neighbourhoods(none, kReach).nearest({0, 0, 0}, kReach, {}));
-  CHECK(!Neighbourhoods(one, 0).nearest({0, 0, 0}, kReach, {0}));
-  const Neighbourhoods near(one, kReach);
+  CHECK(!NearestIndex(none, kReach).nearest({0, 0, 0}, kReach, {}));
+  CHECK(!NearestIndex(one, 0).nearest({0, 0, 0}, kReach, {0}));
+  const NearestIndex near(one, kReach);
   CHECK(near.nearest({0, 0, 0}, 0, {0}));
   CHECK(!near.nearest({0, 0, 0}, kReach, {1}));
   CHECK(!near.nearest({0, std::nanf(""), 0}, kReach, {0}));
   CHECK(!near.nearest({1e30F, 0, 0}, kReach, {0}));
+  CHECK(near.nearest({1e10F, 0, 0}, 1e11F, {0}));
 }
