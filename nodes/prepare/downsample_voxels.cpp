@@ -9,6 +9,7 @@
 //
 //   downsample_voxels: {in: [cloud, scale], out: small_cloud, leaf_size: 1}
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -54,12 +55,13 @@ Eigen::Vector3d main_axis(const Cloud& cloud, std::span<const std::uint32_t> mem
   return axis(largest) < 0 ? Eigen::Vector3d(-axis) : axis;  // the solver's sign is arbitrary
 }
 
-std::vector<Group> group(const Cloud& cloud, std::span<const std::uint32_t> members) {
-  Group all;
-  for (const std::uint32_t i : members) all.add(cloud, i);
-  if (all.normals.norm() >= kCancelled * all.count) return {all};
+/// One point for a voxel; two where its normals cancel. The second may be empty.
+std::array<Group, 2> group(const Cloud& cloud, std::span<const std::uint32_t> members) {
+  std::array<Group, 2> sides;
+  for (const std::uint32_t i : members) sides[0].add(cloud, i);
+  if (sides[0].normals.norm() >= kCancelled * sides[0].count) return sides;
   const Eigen::Vector3d axis = main_axis(cloud, members);
-  std::vector<Group> sides(2);
+  sides = {};
   for (const std::uint32_t i : members)
     sides[cloud.normals.row(i).cast<double>().dot(axis) > 0 ? 0 : 1].add(cloud, i);
   return sides;
@@ -71,6 +73,7 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
   const Voxels voxels =
       group_by_voxel(out.points, static_cast<float>(params.leaf_size) * scale.resolution);
   std::vector<Group> groups;
+  groups.reserve(voxels.size());
   for (std::size_t v = 0; v < voxels.size(); ++v)
     for (const Group& side : group(out, voxels[v]))
       if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
