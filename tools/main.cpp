@@ -17,6 +17,7 @@
 #include "tools/bench/bench.hpp"
 #include "tools/commands.hpp"
 #include "tools/experiment/experiment.hpp"
+#include "tools/report/report.hpp"
 
 namespace {
 
@@ -131,6 +132,7 @@ struct Options {
   EvaluateCommand evaluate;
   ExperimentCommand experiment;
   BenchCommand bench;
+  ReportCommand report;
   std::string config, node, docs_file;
   std::vector<std::string> set;
 };
@@ -243,6 +245,25 @@ void add_bench(CLI::App& app, BenchCommand& bench) {
       ->type_name("OLD NEW");
 }
 
+void add_report(CLI::App& app, ReportCommand& report) {
+  CLI::App* command =
+      app.add_subcommand("report", "Make one HTML page of what others have written");
+  command->footer(
+      "Example:\n  posevote report out/today\n\n"
+      "Of the folder of a run, an evaluation or an experiment, and the folders in it: tables, "
+      "plots\n"
+      "and pictures, all in the page itself.");
+  command
+      ->add_option("folder", report.folder, "What `run`, `evaluate` or `experiment` took as --out")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--out", report.out, "The page; default report.html in the folder")
+      ->type_name("FILE");
+  command->add_option("--pictures", report.pictures, "Take in so many pictures at most")
+      ->check(whole_number(std::numeric_limits<std::size_t>::max()))
+      ->capture_default_str();
+}
+
 void add_inspection(CLI::App& app, Options& options) {
   CLI::App* check = app.add_subcommand("check", "Report every problem of a config at once");
   CLI::App* graph = app.add_subcommand("graph", "Print the wiring as Graphviz DOT");
@@ -270,6 +291,7 @@ int dispatch(const CLI::App& app, const Options& options) {
     return with_threads(options.bench.threads, [&] { return bench_command(options.bench); });
   if (app.got_subcommand("evaluate"))
     return with_threads(0, [&] { return evaluate_command(options.evaluate); });
+  if (app.got_subcommand("report")) return report_command(options.report);
   if (app.got_subcommand("check")) return check_command(options.config, options.set);
   if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
   if (app.got_subcommand("nodes")) return nodes_command(options.node);
@@ -290,6 +312,7 @@ int main(int argc, char** argv) {
   add_evaluate(app, options.evaluate);
   add_experiment(app, options.experiment);
   add_bench(app, options.bench);
+  add_report(app, options.report);
   add_inspection(app, options);
   try {
     app.parse(argc, argv);

@@ -153,7 +153,7 @@ class Reporter {
   }
 
   FrameReport frame_report(const SceneEntry& scene, const std::vector<graph::Span>& spans) const {
-    FrameReport report{scene.number, scene.file, 0, {}};
+    FrameReport report{scene.number, scene.file, 0, {}, scene.name};
     double begin = 0;
     double end = 0;
     for (std::size_t i = 0; i < spans.size(); ++i) {

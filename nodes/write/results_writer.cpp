@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace posevote {
@@ -45,25 +44,13 @@ ordered_json to_json(const FrameReport& frame, const Detections& detections) {
   ordered_json list = ordered_json::array();
   for (const Detection& found : detections.items) list.push_back(to_json(found));
   return {{"frame", frame.number},
+          {"name", frame.name},
           {"file", frame.file.path.string()},
           {"scene_id", frame.file.scene_id},
           {"im_id", frame.file.im_id},
           {"seconds", frame.seconds},
           {"stages", frame.stages},
           {"detections", list}};
-}
-
-/// Lines of a results.json: a killed run's last line may be torn, so each is parsed alone.
-std::vector<ordered_json> read_frames(const fs::path& file) {
-  std::vector<ordered_json> frames;
-  std::ifstream stream(file);
-  for (std::string text; std::getline(stream, text);) {
-    if (!text.starts_with("{\"frame\"")) continue;
-    if (text.ends_with(',')) text.pop_back();
-    ordered_json frame = ordered_json::parse(text, nullptr, false);
-    if (!frame.is_discarded() && frame.contains("im_id")) frames.push_back(std::move(frame));
-  }
-  return frames;
 }
 
 /// Rows of results.csv from a line of results.json, which holds all of them: a killed run may have
@@ -119,7 +106,7 @@ ResultsWriter::ResultsWriter(const fs::path& out, bool resume,
     throw std::invalid_argument(out.string() +
                                 ": holds another run; choose another --out or give --resume");
   fs::create_directories(out);
-  const std::vector<ordered_json> frames = read_frames(results);
+  const std::vector<ordered_json> frames = read_frames(results, "im_id").items;
   check_same_scans(results, frames, scans);
   std::string rows;
   for (const ordered_json& frame : frames) rows += csv_rows(frame);
@@ -152,6 +139,21 @@ void ResultsWriter::write(const FailureReport& failure) {
                           {"file", failure.file.string()},
                           {"node", failure.node},
                           {"what", failure.what}}));
+}
+
+WrittenFrames read_frames(const fs::path& file, const std::string& key) {
+  WrittenFrames frames;
+  std::ifstream stream(file);
+  for (std::string text; std::getline(stream, text);) {
+    if (!text.starts_with("{\"frame\"")) continue;
+    if (text.ends_with(',')) text.pop_back();
+    ordered_json frame = ordered_json::parse(text, nullptr, false);
+    if (!frame.is_discarded() && frame.contains(key))
+      frames.items.push_back(std::move(frame));
+    else
+      ++frames.torn;
+  }
+  return frames;
 }
 
 std::string csv_rows(const FrameReport& frame, const Detections& detections) {

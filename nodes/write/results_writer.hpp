@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct FrameReport {
   SceneFile file;
   double seconds = 0;                    ///< begin of the first stage to end of the last
   std::map<std::string, double> stages;  ///< seconds per node
+  std::string name;                      ///< of the files that writers make for it
 };
 
 struct FailureReport {
@@ -54,6 +56,16 @@ class ResultsWriter {
   std::unique_ptr<AppendJson> results_;
   std::unique_ptr<AppendJson> failures_;
 };
+
+/// Items of a results.json or failures.json.
+struct WrittenFrames {
+  std::vector<nlohmann::ordered_json> items;
+  std::size_t torn = 0;  ///< lines left out
+};
+
+/// Each line is read alone: a killed run may have torn the last one. Lines without `key` are left
+/// out, too. Nothing where there is no such file.
+WrittenFrames read_frames(const std::filesystem::path& file, const std::string& key);
 
 /// "scene_id,im_id,obj_id,score,R,t,time": R row by row, t in mm, time in s; one line a detection.
 std::string csv_rows(const FrameReport& frame, const Detections& detections);

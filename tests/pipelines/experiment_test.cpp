@@ -45,6 +45,11 @@ TEST_CASE("experiment uwa: methods side by side on a set with true poses", "[exp
         std::string::npos);
   CHECK(read_text(folder / "out/uwa.svg").find("</svg>") != std::string::npos);
   CHECK(fs::exists(folder / "out/ransac/evaluation/evaluation.json"));
+  REQUIRE(run_posevote(folder, "report " + (folder / "out").string()).status == 0);
+  const std::string page = read_text(folder / "out/report.html");
+  for (const char* part : {">uwa</h2>", ">posevote</h2>", ">ransac/evaluation</h2>",
+                           "<dt>frames answered</dt><dd>2</dd>", "data:image/svg+xml;base64,"})
+    CHECK(page.find(part) != std::string::npos);
 }
 
 TEST_CASE("experiment --quick makes a small replica of each set and recognises in it",

@@ -72,11 +72,4 @@ std::size_t peak_memory_mb() {
   return 0;
 }
 
-double median(Samples samples) {
-  if (samples.empty()) return 0;
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  std::nth_element(samples.begin(), middle, samples.end());
-  return *middle;
-}
-
 }  // namespace posevote

@@ -11,6 +11,7 @@
 #include "tools/experiment/experiment.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
+#include "tools/median.hpp"
 
 namespace posevote {
 
@@ -30,8 +31,6 @@ void train_once(Contestant& contestant, const ModelFiles& models);
 /// Throws std::runtime_error naming the scan, the node and the cause where it fails.
 void run_once(Contestant& contestant, const SceneEntry& scene);
 
-/// 0 of nothing.
-double median(Samples samples);
 /// Of this process so far [MB].
 std::size_t peak_memory_mb();
 

@@ -4,24 +4,16 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "graph/schema.hpp"
 #include "tools/evaluate/rotation.hpp"
+#include "tools/text.hpp"
 
 namespace posevote {
 namespace {
 
 constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time";
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-  if (!text.empty() && text.back() == separator) parts.emplace_back();
-  return parts;
-}
 
 template <class T>
 T parse(const std::string& text, const std::string& name) {

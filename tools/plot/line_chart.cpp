@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "tools/text.hpp"
+
 namespace posevote::plot {
 namespace {
 
@@ -20,23 +22,6 @@ std::string format(const char* pattern, Values... values) {
   char text[320];
   std::snprintf(text, sizeof text, pattern, values...);
   return text;
-}
-
-std::string escape(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      safe += c;
-  }
-  return safe;
 }
 
 /// Values to a length in pixels.
@@ -80,7 +65,7 @@ class Axis {
 std::string words(double x, double y, const char* anchor, const std::string& text,
                   const char* more = "") {
   return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"%s>", x, y, anchor, more) +
-         escape(text) + "</text>\n";
+         escape_markup(text) + "</text>\n";
 }
 
 std::string frame(const Chart& chart, const Axis& x, const Axis& y) {

@@ -16,7 +16,8 @@ using posevote::test::TemporaryFolder;
 namespace {
 
 FrameReport frame(std::size_t number) {
-  return {number, {"scans/a.ply", 0, static_cast<int>(number), {}}, 1.25, {{"load_scene", 0.5}}};
+  return {
+      number, {"scans/a.ply", 0, static_cast<int>(number), {}}, 1.25, {{"load_scene", 0.5}}, "a"};
 }
 
 Detections one_chef() {

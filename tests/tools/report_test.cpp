@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `posevote report`: one page of what runs, evaluations and experiments leave, whole or broken.
+#include "tools/report/report.hpp"
+
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "nodes/write/results_writer.hpp"
+#include "tests/support/command.hpp"
+#include "tools/evaluate/write_evaluation.hpp"
+#include "tools/experiment/experiment.hpp"
+#include "tools/median.hpp"
+#include "tools/report/html.hpp"
+#include "tools/text.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+using Catch::Contains;
+
+namespace {
+
+constexpr const char* kPng = "\x89PNG\r\n\x1a\n";  // as much of one as the report looks at
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+/// What is wrong with the nesting of a page's tags, its entities, or its references to other files;
+/// "" where nothing is.
+std::string flaw(const std::string& page) {
+  std::vector<std::string> open;
+  const std::regex tag(
+      "<(/?)([a-zA-Z0-9]+)((?: [a-zA-Z-]+=\"[^\"<]*\")*)(/?)>|<!DOCTYPE html>|[<>]");
+  const std::size_t style = page.find("<style>"), styled = page.find("</style>");
+  const std::string text = page.substr(0, style + 7) + page.substr(styled);
+  for (std::sregex_iterator i(text.begin(), text.end(), tag), end; i != end; ++i) {
+    const std::string name = (*i)[2], attributes = (*i)[3];
+    if (i->str() == "<!DOCTYPE html>" || (*i)[4] == "/") continue;
+    if (name.empty()) return "stray bracket: " + text.substr(std::size_t(i->position()), 80);
+    if ((*i)[1] != "/")
+      open.push_back(name);
+    else if (open.empty() || open.back() != name)
+      return "</" + name + "> closes no such tag";
+    else
+      open.pop_back();
+    if (attributes.find("href=\"") != attributes.find("href=\"#")) return "link: " + attributes;
+  }
+  if (!open.empty()) return "<" + open.back() + "> is not closed";
+  if (std::regex_search(text, std::regex("&(?!(amp|lt|gt|quot);)"))) return "bare &";
+  if (count(text, " src=\"") != count(text, " src=\"data:image/")) return "picture elsewhere";
+  return mend_utf8(page) == page ? "" : "not UTF-8";
+}
+
+std::string whole_page(const TemporaryFolder& folder, std::size_t pictures = 50) {
+  std::string page = report_page(folder.path(), pictures);
+  // The checker's expressions recurse letter by letter.
+  const std::string checked =
+      std::regex_replace(page, std::regex("base64,[A-Za-z0-9+/]{200}[^\"]*"), "base64,");
+  CHECK(flaw(checked) == "");
+  return page;
+}
+
+Detection found(const std::string& model, double score) {
+  Detection found;
+  found.obj_id = 1;
+  found.model = model;
+  found.score = score;
+  found.density = 1234;
+  found.runner_up_density = 56;
+  found.inlier_fraction = 0.78;
+  found.rmse = 0.00125;
+  return found;
+}
+
+FrameReport frame(std::size_t number, const std::string& name) {
+  return {number,
+          {"scans/" + name + ".ply", 0, static_cast<int>(number), {}},
+          1.0 + static_cast<double>(number),
+          {{"load_scene", 0.25}, {"match_features", 0.75}},
+          name};
+}
+
+/// A run of three frames, each with a picture, and a failure.
+void write_run(const std::filesystem::path& folder) {
+  ResultsWriter writer(folder, false);
+  writer.write(frame(0, "one"), {{found("chef", 0.91), found("chicken", 0.42)}}, "[]");
+  writer.write(frame(1, "two"), {{found("chef", 0.93)}}, "[]");
+  writer.write(frame(2, "three"), {}, "[]");
+  writer.write(FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
+  std::filesystem::create_directories(folder / "pictures");
+  for (const char* name : {"one", "two", "three"})
+    std::ofstream(folder / "pictures" / (std::string(name) + ".png")) << kPng << name;
+  std::ofstream(folder / "effective.yaml") << "match_features: {max_ratio: 1}  # a < b\n";
+}
+
+Evaluation small_evaluation() {
+  Evaluation evaluation;
+  evaluation.rules = choose_rules("pose");
+  evaluation.objects[1].resize(1);
+  evaluation.names[1] = "chef & co";
+  evaluation.all.resize(1);
+  evaluation.all[0].counts = {3, 4, 3};
+  evaluation.notes = {"image 7 was not judged"};
+  InstanceResult instance;
+  instance.met = {1};
+  evaluation.instances = {instance};
+  return evaluation;
+}
+
+}  // namespace
+
+TEST_CASE("base64 and the median are as everyone has them", "[report]") {
+  CHECK(html::base64("") == "");
+  CHECK(html::base64("f") == "Zg==");
+  CHECK(html::base64("fo") == "Zm8=");
+  CHECK(html::base64("foo") == "Zm9v");
+  CHECK(html::base64("foobar") == "Zm9vYmFy");
+  CHECK(html::base64(std::string("\x00\xff\xfe", 3)) == "AP/+");
+  CHECK(median({}) == 0);
+  CHECK(median({3, 1, 2}) == 2);
+  CHECK(median({4, 1, 3, 2}) == 2.5);
+}
+
+TEST_CASE("text from elsewhere cannot become markup", "[report]") {
+  CHECK(escape_markup("<a href=\"x\">&'\x01\t") == "&lt;a href=&quot;x&quot;&gt;&amp;'\t");
+  CHECK(escape_markup("caf\xc3\xa9 \xff") == "caf\xc3\xa9 \xef\xbf\xbd");
+  CHECK(split("a,,b,", ',') == std::vector<std::string>{"a", "", "b", ""});
+  CHECK(html::path("a<b/c") == "a&lt;b/<wbr/>c");
+}
+
+TEST_CASE("a run: frames, models, stages, failures, parameters, pictures", "[report]") {
+  const TemporaryFolder folder;
+  write_run(folder.path());
+  const std::string page = whole_page(folder);
+  CHECK_THAT(page, Contains("<dt>frames answered</dt><dd>3</dd>") &&
+                       Contains("<dt>frames failed</dt><dd>1</dd>") &&
+                       Contains("<dt>detections</dt><dd>3</dd>") &&
+                       Contains("<dt>median time of a frame</dt><dd>2.00 s</dd>") &&
+                       Contains("<dt>longest</dt><dd>3.00 s</dd>"));
+  // chef: two detections in two frames, their scores in one bar.
+  CHECK_THAT(page,
+             Contains("<tr><td>chef</td><td class=\"number\">2</td><td class=\"number\">2</td>"
+                      "<td class=\"number\">0.920</td>") &&
+                 Contains("<title>0.90 to 0.95: 2</title>"));
+  CHECK_THAT(page, Contains("<td>match_features</td><td class=\"number\">2.25</td>"
+                            "<td class=\"number\">750.0</td><td class=\"number\">750.0</td>"
+                            "<td class=\"number\">75.0</td>"));
+  CHECK_THAT(page, Contains("<td>chicken</td><td class=\"number\">0.420</td>"
+                            "<td class=\"number\">1234</td><td class=\"number\">56</td>"
+                            "<td class=\"number\">78</td><td class=\"number\">1.25</td>"));
+  CHECK_THAT(page, Contains("nothing found") && Contains("holds 3 of 9 vertices") &&
+                       Contains("1 in load_scene") && Contains("# a &lt; b"));
+  CHECK_THAT(page, Contains(html::base64(std::string(kPng) + "three")));
+  CHECK(page == report_page(folder.path(), 50));
+}
+
+TEST_CASE("the page holds as many pictures as it may and says so", "[report]") {
+  const TemporaryFolder folder;
+  write_run(folder.path());
+  const std::string page = whole_page(folder, 2);
+  CHECK(count(page, "data:image/png") == 2);
+  CHECK_THAT(page, Contains("2 of 3 pictures are on this page"));
+  CHECK(count(whole_page(folder, 0), "data:image/png") == 0);
+  std::ofstream(folder / "pictures/one.png") << "no picture";
+  CHECK(count(whole_page(folder), "data:image/png") == 2);
+  // As before names of pictures were written, and as a --resume of such a run leaves them.
+  folder.write("results.json", "{\"frame\":1,\"file\":\"a/two.ply\",\"detections\":[]},\n");
+  CHECK(count(whole_page(folder), "data:image/png") == 1);
+}
+
+TEST_CASE("odd names and messages", "[report]") {
+  const TemporaryFolder folder;
+  const std::string name = "a<b>&\"c\"\xff";
+  {
+    ResultsWriter writer(folder.path(), false);
+    writer.write(frame(0, name), {{found("</td><script>x</script>", 2)}}, "[]");
+    writer.write(FailureReport{1, name, "<node>", "\"&\xfe\n"});
+  }
+  std::filesystem::create_directories(folder / "pictures");
+  std::ofstream(folder / "pictures" / (name + ".png")) << kPng;
+  std::ofstream(folder / "effective.yaml") << "</pre>\xff\n";
+  const std::string page = whole_page(folder);
+  CHECK(count(page, "data:image/png") == 1);
+  CHECK_THAT(page, !Contains("<script") && Contains("a&lt;b&gt;&amp;&quot;c&quot;\xef\xbf\xbd"));
+}
+
+TEST_CASE("torn and strange lines of results are left out", "[report]") {
+  const TemporaryFolder folder;
+  write_run(folder.path());
+  const std::string whole = read_text(folder / "results.json");
+  folder.write("results.json", whole.substr(0, whole.find("three") + 2));
+  std::string page = whole_page(folder);
+  CHECK_THAT(page,
+             Contains("<dt>frames answered</dt><dd>2</dd>") && Contains("Torn lines left out: 1."));
+
+  folder.write(
+      "results.json",
+      "{\"frames\": [\n"
+      "{\"frame\": \"x\", \"file\": 7, \"stages\": [1], \"detections\": 3},\n"
+      "{\"frame\": 1e300, \"stages\": {\"a\": \"b\"}, \"detections\": [{\"score\": null}]},\n"
+      "{\"frame\": 2, \"detections\": [{\"score\": -1e300, \"obj_id\": \"<\"}, []]}\n");
+  page = whole_page(folder);
+  CHECK_THAT(page, Contains("<dt>frames answered</dt><dd>3</dd>") && !Contains("nan"));
+  folder.write("results.json", "\x89\xff{{{");
+  folder.write("failures.json", "");
+  CHECK_THAT(whole_page(folder), Contains("<dt>frames answered</dt><dd>0</dd>"));
+}
+
+TEST_CASE("thousands of frames are folded", "[report]") {
+  const TemporaryFolder folder;
+  std::string results = "{\"frames\": [\n";
+  for (int i = 0; i < 2050; ++i)
+    results += "{\"frame\": " + std::to_string(i) + ", \"file\": \"a.ply\", \"detections\": []},\n";
+  folder.write("results.json", results);
+  const std::string page = report_page(folder.path(), 50);
+  CHECK(count(page, "<details") == 21);
+  CHECK(count(page, "<details open") == 1);
+  CHECK_THAT(page, Contains("Frames 2000 to 2049"));
+}
+
+TEST_CASE("an experiment: its table and plot, and each method's run and evaluation", "[report]") {
+  const TemporaryFolder folder;
+  const nlohmann::ordered_json rows = {
+      {{"method", "posevote"}, {"object", "all"}, {"correct", 187.0}, {"recall", 0.99468}},
+      {{"method", "posevote"}, {"object", "1"}, {"correct", 45.0}, {"recall", 1.0}}};
+  const nlohmann::ordered_json table{{"dataset", "a <replica>"}, {"rows", rows}};
+  write_report(folder / "uwa", table.dump(), to_csv(rows), "<svg id=\"frame0\"></svg>");
+  write_run(folder / "posevote");
+  write_evaluation(small_evaluation(), folder / "posevote/evaluation");
+  folder.write("replica/test/000001/scene_gt.json", "{}");
+  const std::string page = whole_page(folder);
+  CHECK_THAT(page, Contains("<h2 id=\"part0\">uwa</h2>") &&
+                       Contains("<h2 id=\"part1\">posevote</h2>") &&
+                       Contains("<h2 id=\"part2\">posevote/evaluation</h2>") && !Contains("part3"));
+  CHECK_THAT(page, Contains("Data set: a &lt;replica&gt;") &&
+                       Contains("<td class=\"number\">187</td><td class=\"number\">0.995</td>") &&
+                       Contains("Object by object"));
+  CHECK_THAT(page, Contains("pose: pose 50 mm, 7.5 deg.") && Contains("1: chef &amp; co.") &&
+                       Contains("Note: image 7 was not judged.") &&
+                       Contains("Instance by instance"));
+  CHECK(count(page, "data:image/svg+xml") == 3);
+  CHECK(count(page, "data:image/png") == 3);
+  CHECK(count(page, "<details open") == 0);  // of the methods, only summaries
+}
+
+TEST_CASE("an experiment and an evaluation that are torn", "[report]") {
+  const TemporaryFolder folder;
+  folder.write("uwa.json", "{\"dataset\": \"x");
+  folder.write("uwa.csv", "method,recall\nposevote,0.5\nransac,<0.5\nhough3d");
+  folder.write("uwa.svg", "<svg><g");
+  folder.write("growth.json", "[]");
+  folder.write("growth.csv", "");
+  folder.write("growth.svg", "");
+  folder.write("judged/evaluation.json", "{\"all\": 3}");
+  const std::string page = whole_page(folder);
+  CHECK_THAT(page, Contains("uwa.json cannot be read.") && Contains("<td>ransac</td>") &&
+                       !Contains("hough3d") && Contains("evaluation.json cannot be read."));
+}
+
+TEST_CASE("a folder that holds nothing of ours is refused by name", "[report]") {
+  const TemporaryFolder folder;
+  folder.write("notes.csv", "a,b\n1,2\n");
+  folder.write("data/pictures/a.png", kPng);
+  CHECK_THROWS_AS(report_page(folder.path(), 1), std::invalid_argument);
+  CHECK_THROWS_WITH(report_page(folder.path(), 1),
+                    Contains(folder.path().string()) && Contains("expected results.json"));
+  CHECK_THROWS_AS(report_page(folder / "nowhere", 1), std::invalid_argument);
+  CHECK_THROWS_WITH(report_page(folder / "notes.csv", 1), Contains("notes.csv: no such folder"));
+}
+
+TEST_CASE("posevote report on the command line", "[report]") {
+  const TemporaryFolder folder;
+  write_run(folder / "out");
+  const std::string out = (folder / "out").string();
+  const CommandResult made = run_posevote(folder, "report " + out + " --pictures 1");
+  INFO(made.output);
+  CHECK(made.status == 0);
+  CHECK_THAT(made.output, Contains("wrote " + out + "/report.html"));
+  CHECK(read_text(folder / "out/report.html") == report_page(folder / "out", 1));
+  CHECK(run_posevote(folder, "report " + out + " --out " + (folder / "a.html").string()).status ==
+        0);
+  CHECK(read_text(folder / "a.html") == report_page(folder / "out", 50));
+
+  CHECK(run_posevote(folder, "report " + (folder / "nowhere").string()).status == 2);
+  CHECK(run_posevote(folder, "report " + out + " --pictures -1").status == 2);
+  const CommandResult full = run_posevote(folder, "report " + out + " --out /dev/full");
+  CHECK(full.status == 1);
+  CHECK_THAT(full.output, Contains("/dev/full: cannot be written"));
+}

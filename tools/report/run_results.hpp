@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run has left in its folder, as far as it can be read.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "graph/trace.hpp"
+
+namespace posevote {
+
+/// What is missing, or is no number, is NaN; text is empty.
+struct FoundObject {
+  std::string model;
+  double score = 0, density = 0, runner_up_density = 0, inlier_fraction = 0, rmse = 0;
+};
+
+struct AnsweredFrame {
+  double number = 0;
+  std::string file;
+  std::string name;  ///< of its picture, UTF-8
+  double seconds = 0;
+  std::vector<FoundObject> found;
+};
+
+struct FailedFrame {
+  double number = 0;
+  std::string file, node, what;
+};
+
+struct RunResults {
+  std::vector<AnsweredFrame> frames;
+  std::vector<FailedFrame> failures;
+  std::vector<graph::NodeTimes> stages;  ///< over the answered frames, slowest first
+  std::size_t torn = 0;                  ///< lines that are none, of a run that was killed
+};
+
+/// Whether there is one to read.
+bool holds_run(const std::filesystem::path& folder);
+/// What cannot be read is left out.
+RunResults read_run(const std::filesystem::path& folder);
+
+}  // namespace posevote

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text that comes from elsewhere: file names, tables, messages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace posevote {
+
+/// The parts between separators: one more than there are separators, none of an empty text.
+std::vector<std::string> split(const std::string& text, char separator);
+
+/// File names may hold any bytes: those that are no UTF-8 become U+FFFD.
+std::string mend_utf8(const std::string& text);
+
+/// For HTML and SVG, between tags and within quoted attributes: < > & " become entities, UTF-8 is
+/// mended, control characters but tabs and line ends go.
+std::string escape_markup(const std::string& text);
+
+}  // namespace posevote
