@@ -29,7 +29,9 @@ struct Cloud {
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< sensor origin [m] (scans only)
   Eigen::AlignedBox2f image;  ///< of a depth image: what its pixels span in x / z and y / z, seen
                               ///< from the viewpoint; empty where that is not known
-  std::size_t dropped = 0;    ///< points left out so far: not finite, or without a usable normal
+  Eigen::Vector2i pixels =
+      Eigen::Vector2i::Zero();  ///< of that image, columns and rows; 0: unknown
+  std::size_t dropped = 0;      ///< points left out so far: not finite, or without a usable normal
 };
 
 }  // namespace posevote

@@ -67,6 +67,7 @@ Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const 
         static_cast<float>((v - camera.cy) * z / camera.fy), z;
   }
   cloud.image = pixel_bounds(camera, image);
+  cloud.pixels = {static_cast<int>(image.width), static_cast<int>(image.height)};
   if (count == 0)
     throw std::runtime_error("none of the image's " + std::to_string(image.values.size()) +
                              " pixels holds a depth within the limits (0 is no measurement)");

@@ -6,7 +6,8 @@
 // the plane through its neighbours. Faces that stand 15 deg off the planes at half of the points
 // are those of a noisy mesh and not believed: on the Bunny with 0.5 % noise they are 20 deg off the
 // truth, the planes 6 deg. The neighbourhood spans at least six of the scan's own spacings (best
-// on RGB-D at 0.4 to 1 m: 5 to 15 mm) and widens with the noise (plane_normals.hpp).
+// on RGB-D at 0.4 to 1 m: 5 to 15 mm) and widens with the noise (plane_normals.hpp; for depth
+// images image_normals.hpp).
 //
 // Points without a normal (alone, on a line) are dropped and counted; faces are left behind.
 // O(n log n), parallel. Fails where no point is left.
@@ -19,6 +20,7 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
+#include "nodes/prepare/image_normals.hpp"
 #include "nodes/prepare/normals.hpp"
 #include "nodes/prepare/plane_normals.hpp"
 
@@ -63,6 +65,8 @@ PointMatrix file_normals(const Cloud& scan) {
 
 PointMatrix neighbour_planes(const Cloud& scan, const Scale& scale, const Params& params) {
   const float smallest = static_cast<float>(params.radius) * scale.resolution;
+  if (auto normals = image_normals(scan, smallest, kSpacings, params.min_neighbours))
+    return *std::move(normals);
   const auto planes = suitable_planes(scan.points, smallest, kSpacings);
   return planes ? planes->normals(params.min_neighbours) : PointMatrix::Zero(scan.points.rows(), 3);
 }

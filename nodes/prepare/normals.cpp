@@ -56,6 +56,7 @@ Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
   out.normals = normals(kept, Eigen::all);
   out.viewpoint = cloud.viewpoint;
   out.image = cloud.image;
+  out.pixels = cloud.pixels;
   out.dropped = cloud.dropped + static_cast<std::size_t>(cloud.points.rows()) - kept.size();
   return out;
 }

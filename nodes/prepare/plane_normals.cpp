@@ -14,41 +14,19 @@
 #include "nodes/data/splitmix64.hpp"
 #include "nodes/prepare/cells.hpp"
 #include "nodes/prepare/plane_moments.hpp"
-#include "nodes/prepare/spread.hpp"
 
 namespace posevote {
 namespace {
 
 constexpr float kMergePerRadius = 1.0F / 5;
-constexpr float kThickest = 0.2F;  ///< of the radius
-constexpr float kWiden = 1.25F;
-constexpr float kWidest = 4;  ///< x starting radius
 constexpr std::size_t kSample = 1000;
-
-Eigen::Matrix3d covariance_of(const PlaneMoments& sum) {
-  Eigen::Matrix3d products;
-  products << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
-  const auto weight = static_cast<double>(sum.one);
-  const Eigen::Vector3d mean = Eigen::Vector3d(sum.x, sum.y, sum.z) / weight;
-  return products / weight - mean * mean.transpose();
-}
+constexpr int kFewest = 5;  // neighbours of a plane that tells the noise
 
 std::vector<float> weights_of(const Voxels& voxels, const PointGrid& grid) {
   std::vector<float> weights(voxels.size() + kGridPadding, 0);
   for (std::size_t i = 0; i < grid.size(); ++i)
     weights[i] = static_cast<float>(voxels[grid.indices()[i]].size());
   return weights;
-}
-
-/// Every n-th of `count` things, so that they are at most twice `kSample`.
-std::size_t sample_step(std::size_t count) { return std::max<std::size_t>(1, count / kSample); }
-
-/// The median; 0 of nothing.
-float median(std::vector<float> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Diagonal of the box that leaves out a twentieth of the points at either end of each axis.
@@ -63,15 +41,6 @@ float middle_diagonal(const std::vector<Eigen::Vector3f>& points) {
     extent(axis) = values[values.size() - 1 - cut] - values[cut];
   }
   return extent.stableNorm();
-}
-
-float typical_thickness(const PlaneFitter& fitter) {
-  constexpr int kFewest = 5;
-  std::vector<float> thickness;
-  for (std::size_t v = 0; v < fitter.size(); v += sample_step(fitter.size()))
-    if (const PlaneFitter::Plane plane = fitter.fit(v, kFewest); !plane.normal.isZero())
-      thickness.push_back(plane.thickness);
-  return median(std::move(thickness));
 }
 
 using Place = std::array<float, 3>;
@@ -128,24 +97,19 @@ PlaneFitter::PlaneFitter(const PointMatrix& points, float radius)
       grid_(centroids_, radius),
       weights_(weights_of(voxels_, grid_)) {}
 
-PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, int min_neighbours) const {
+Plane PlaneFitter::fit(std::size_t voxel, int min_neighbours) const {
   const Eigen::Vector3f center = centroids_.row(static_cast<Eigen::Index>(voxel));
   std::vector<GridRun> around;
   grid_.find_runs(center, center, radius_, around);
   return fit(voxel, around, min_neighbours);
 }
 
-PlaneFitter::Plane PlaneFitter::fit(std::size_t voxel, const std::vector<GridRun>& around,
-                                    int min_neighbours) const {
+Plane PlaneFitter::fit(std::size_t voxel, const std::vector<GridRun>& around,
+                       int min_neighbours) const {
   const Eigen::Vector3f center = centroids_.row(static_cast<Eigen::Index>(voxel));
   const PlaneMoments moments = plane_moments({grid_.x(), grid_.y(), grid_.z(), weights_.data()},
                                              around.data(), around.size(), center.data(), radius_);
-  if (moments.count < static_cast<float>(min_neighbours)) return {};
-  const Spread spread = spread_of(covariance_of(moments));
-  const double length = spread.across.norm();
-  if (!(length > 0) || !std::isfinite(length)) return {};
-  return {(spread.across / length).cast<float>(),
-          radius_ * static_cast<float>(std::sqrt(spread.least))};
+  return plane_of(moments, radius_, min_neighbours);
 }
 
 PointMatrix PlaneFitter::normals(int min_neighbours) const {
@@ -172,10 +136,13 @@ std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smal
   const float spacing = point_spacing(points);
   if (!(spacing > 0)) return std::nullopt;
   const float start = std::max(smallest, spacings * spacing);
-  std::optional<PlaneFitter> planes(std::in_place, points, start);
-  while (planes->radius() * kWiden <= kWidest * start &&
-         typical_thickness(*planes) > kThickest * planes->radius())
-    planes.emplace(points, kWiden * planes->radius());
+  std::optional<PlaneFitter> planes;
+  const float radius = suitable_radius(start, [&](float tried) {
+    planes.emplace(points, tried);
+    return typical_thickness(planes->size(),
+                             [&](std::size_t v) { return planes->fit(v, kFewest); });
+  });
+  if (!planes || planes->radius() != radius) planes.emplace(points, radius);
   return planes;
 }
 

@@ -12,6 +12,7 @@
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/prepare/grid.hpp"
+#include "nodes/prepare/plane_fit.hpp"
 #include "nodes/prepare/voxels.hpp"
 
 namespace posevote {
@@ -20,11 +21,6 @@ namespace posevote {
 /// merged first and share a plane: a plane has some eighty neighbours however dense the cloud is.
 class PlaneFitter {
  public:
-  struct Plane {
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, sign arbitrary; 0: no plane
-    float thickness = 0;  ///< root mean square distance from the plane [m]
-  };
-
   /// `radius` [m] > 0
   PlaneFitter(const PointMatrix& points, float radius);
 

@@ -25,9 +25,11 @@ constexpr double kTrustInSupport = 0.1;
 
 // Weight of the consensus in the score, measured on simulated and real RGB-D scans: support per
 // feature on the posed model is 0.2 .. 1.2 for true poses, seldom below 0.05, and 0.02 .. 0.1 for
-// shapes that only look alike from one side. The fit tells how much of the surface is there, the
-// consensus how many of the features on it had voted for the pose before anybody looked.
+// shapes that only look alike from one side, where each casts 60 votes. The fit tells how much of
+// the surface is there, the consensus how many of the features on it had voted for the pose before
+// anybody looked.
 constexpr double kTrustInConsensus = 0.2;
+constexpr double kUsualVotes = 60;
 
 using Candidates = std::vector<Candidate>;
 
@@ -68,7 +70,7 @@ void ObjectSearch::choose() {
 
 void ObjectSearch::choose_among_judged() {
   best_ = best_finalist();
-  if (best_ && proposals_.from_votes) best_->consensus = consensus(*best_);
+  if (best_ && proposals_.votes_per_feature > 0) best_->consensus = consensus(*best_);
   chosen_at_ = scan_.takes;
   if (best_ && best_->confidence() > 0 && best_->confidence() >= params_.min_score) return;
   best_.reset();
@@ -178,8 +180,9 @@ void ObjectSearch::set_score(Candidate& candidate) const {
 double ObjectSearch::consensus(const Candidate& candidate) const {
   const std::size_t explained =
       scan_.count_explained(model_, candidate.T_scene_model, params_.tolerance);
-  const double share =
-      candidate.mode.support / static_cast<double>(std::max<std::size_t>(1, explained));
+  const double votes = static_cast<double>(std::max<std::size_t>(1, explained)) *
+                       proposals_.votes_per_feature / kUsualVotes;
+  const double share = candidate.mode.support / votes;
   return std::pow(std::min(1.0, share), kTrustInConsensus);
 }
 

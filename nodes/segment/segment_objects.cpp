@@ -44,7 +44,7 @@ Proposals propose_from(LiveVotes& object, const ScanState& scan, double min_dens
       [&object](const PoseMode& mode) {
         return refine_mode(*object.votes, *object.raw, object.alive, mode);
       },
-      true};
+      object.votes->votes_per_correspondence};
 }
 
 Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/prepare/image_normals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "graph/parallel.hpp"
+#include "nodes/prepare/cells.hpp"
+#include "nodes/prepare/plane_fit.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr float kNowhere = 1e9F;  // no measurement; finite, so that times 0 it is 0
+constexpr float kMostSpacings =
+    12;  // in a radius: beyond, there are more pixels than a plane needs
+constexpr float kTogether = 1.0F / 3;  // of the radius, between pixels that share a plane
+constexpr int kFewest = 5;             // neighbours of a plane that tells the noise
+
+/// A point of the cloud and its pixel.
+struct Place {
+  std::uint32_t point, pixel;
+};
+
+/// A depth image as an array of points.
+class PixelPlanes {
+ public:
+  explicit PixelPlanes(const Cloud& scan)
+      : width_(scan.pixels.x()),
+        height_(scan.pixels.y()),
+        viewpoint_(scan.viewpoint),
+        low_(scan.image.min()),
+        per_ray_(scan.pixels.cast<float>().cwiseQuotient(scan.image.sizes())) {
+    const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    for (auto* column : {&x_, &y_, &z_}) column->assign(size + kGridPadding, kNowhere);
+    weights_.assign(size + kGridPadding, 0);
+    for (const std::uint32_t i : finite_rows(scan.points)) put(i, scan.points.row(i));
+    // So that the order of the points plays no part in a sample.
+    const auto by_pixel = [](const Place& a, const Place& b) { return a.pixel < b.pixel; };
+    if (!std::is_sorted(places_.begin(), places_.end(), by_pixel))
+      std::sort(places_.begin(), places_.end(), by_pixel);
+  }
+
+  /// Whether every point is in the image, and no two in one pixel.
+  bool complete() const { return complete_; }
+  /// All points, in the order of their pixels.
+  const std::vector<Place>& places() const { return places_; }
+
+  /// The typical distance between points side by side [m].
+  float spacing() const {
+    std::vector<float> distances;
+    for (const std::size_t i : sample_of(places_.size())) {
+      const std::uint32_t pixel = places_[i].pixel;
+      float nearest = kNowhere;
+      for (const std::uint32_t step : {1U, static_cast<std::uint32_t>(width_)}) {
+        if (pixel >= step) nearest = std::min(nearest, distance(pixel, pixel - step));
+        nearest = std::min(nearest, distance(pixel, pixel + step));
+      }
+      if (nearest < kNowhere / 2) distances.push_back(nearest);
+    }
+    return median(std::move(distances));
+  }
+
+  Plane fit(const Eigen::Vector3f& place, float radius, int min_neighbours) const {
+    thread_local std::vector<GridRun> around;
+    find_window(place, radius, around);
+    return plane_of(plane_moments({x_.data(), y_.data(), z_.data(), weights_.data()}, around.data(),
+                                  around.size(), place.data(), radius),
+                    radius, min_neighbours);
+  }
+
+  Eigen::Vector3f point(std::uint32_t pixel) const { return {x_[pixel], y_[pixel], z_[pixel]}; }
+
+  /// Normals of all pixels.
+  PointMatrix normals(float radius, int min_neighbours) const {
+    PointMatrix normals = PointMatrix::Zero(Eigen::Index{width_} * height_, 3);
+    graph::parallel_for(static_cast<std::size_t>((height_ + 1) / 2), 1, [&](std::size_t row) {
+      for (int u = 0; u < width_; u += 2)
+        fit_block(u, 2 * static_cast<int>(row), radius, min_neighbours, normals);
+    });
+    return normals;
+  }
+
+ private:
+  std::uint32_t pixel_at(int u, int v) const { return static_cast<std::uint32_t>(v * width_ + u); }
+
+  void put(std::uint32_t i, const Eigen::Vector3f& point) {
+    const Eigen::Vector3f ray = point - viewpoint_;
+    const Eigen::Vector2f at = (ray.head<2>() / ray.z() - low_).cwiseProduct(per_ray_);
+    const bool inside = ray.z() > 0 && at.minCoeff() >= 0 && at.x() < static_cast<float>(width_) &&
+                        at.y() < static_cast<float>(height_);
+    const std::uint32_t pixel =
+        inside ? pixel_at(static_cast<int>(at.x()), static_cast<int>(at.y())) : 0;
+    complete_ = complete_ && inside && weights_[pixel] == 0;
+    if (!complete_) return;
+    x_[pixel] = point.x();
+    y_[pixel] = point.y();
+    z_[pixel] = point.z();
+    weights_[pixel] = 1;
+    places_.push_back({i, pixel});
+  }
+
+  /// Of two pixels, the second of which may be outside or without a measurement.
+  float distance(std::uint32_t a, std::uint32_t b) const {
+    if (b >= weights_.size() || weights_[b] == 0) return kNowhere;
+    return (point(a) - point(b)).norm();
+  }
+
+  /// The pixels that a ball may cover. With d in the ball and r the ray x / z, the pixel moves by
+  /// (d_x - r d_z) / (z + d_z), which is at most radius sqrt(1 + r^2) / (z - radius).
+  void find_window(const Eigen::Vector3f& place, float radius, std::vector<GridRun>& rows) const {
+    rows.clear();
+    const Eigen::Vector3f ray = place - viewpoint_;
+    const Eigen::Vector2f r = ray.head<2>() / ray.z();
+    Eigen::Vector2f reach = Eigen::Vector2f::Constant(kNowhere);
+    if (ray.z() > 1.001F * radius)
+      reach = (1.001F * radius / (ray.z() - radius)) * (1 + r.array().square()).sqrt();
+    const Eigen::Vector2f size(static_cast<float>(width_ - 1), static_cast<float>(height_ - 1));
+    const auto pixel_of = [&](const Eigen::Vector2f& at) -> Eigen::Vector2i {
+      const Eigen::Vector2f pixel = (at - low_).cwiseProduct(per_ray_);
+      return pixel.cwiseMax(0).cwiseMin(size).cast<int>();
+    };
+    const Eigen::Vector2i first = pixel_of(r - reach), last = pixel_of(r + reach);
+    for (int v = first.y(); v <= last.y(); ++v)
+      rows.push_back({pixel_at(first.x(), v), pixel_at(last.x(), v) + 1});
+  }
+
+  void fit_block(int u, int v, float radius, int min_neighbours, PointMatrix& normals) const {
+    std::array<std::uint32_t, 4> left{};
+    std::size_t count = 0;
+    for (int dv = 0; dv < 2 && v + dv < height_; ++dv)
+      for (int du = 0; du < 2 && u + du < width_; ++du)
+        if (const std::uint32_t pixel = pixel_at(u + du, v + dv); weights_[pixel] != 0)
+          left[count++] = pixel;
+    const auto begin = left.begin();
+    for (auto end = begin + static_cast<std::ptrdiff_t>(count); end != begin;) {
+      // Those of one surface with the last go to the end.
+      const Eigen::Vector3f last = point(*(end - 1));
+      const auto group = std::partition(begin, end, [&](std::uint32_t pixel) {
+        return (point(pixel) - last).norm() > kTogether * radius;
+      });
+      Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+      for (auto p = group; p != end; ++p) middle += point(*p) / static_cast<float>(end - group);
+      const Eigen::Vector3f normal = fit(middle, radius, min_neighbours).normal;
+      for (auto p = group; p != end; ++p) normals.row(*p) = normal;
+      end = group;
+    }
+  }
+
+  int width_, height_;
+  Eigen::Vector3f viewpoint_;
+  Eigen::Vector2f low_, per_ray_;  ///< first pixel's border; pixels in a unit of x / z and y / z
+  std::vector<float> x_, y_, z_, weights_;  ///< row by row, padded; weight 0: no measurement
+  std::vector<Place> places_;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, float spacings,
+                                         int min_neighbours) {
+  if (scan.pixels.minCoeff() < 1 || scan.image.isEmpty()) return std::nullopt;
+  const PixelPlanes planes(scan);
+  const float spacing = planes.spacing();
+  const float start = std::max(smallest, spacings * spacing);
+  if (!planes.complete() || !(spacing > 0) || start > kMostSpacings * spacing) return std::nullopt;
+  const auto& places = planes.places();
+  const float radius = suitable_radius(start, [&](float tried) {
+    return typical_thickness(places.size(), [&](std::size_t i) {
+      return planes.fit(planes.point(places[i].pixel), tried, kFewest);
+    });
+  });
+  if (radius > kMostSpacings * spacing) return std::nullopt;
+  const PointMatrix of_pixels = planes.normals(radius, min_neighbours);
+  PointMatrix normals = PointMatrix::Zero(scan.points.rows(), 3);
+  for (const auto& [point, pixel] : places) normals.row(point) = of_pixels.row(pixel);
+  return normals;
+}
+
+}  // namespace posevote

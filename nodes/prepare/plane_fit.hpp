@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What fits of planes share, wherever the neighbours come from: voxels or the pixels of an image.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/prepare/plane_moments.hpp"
+
+namespace posevote {
+
+struct Plane {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, sign arbitrary; 0: no plane
+  float thickness = 0;  ///< root mean square distance from the plane [m]
+};
+
+/// The plane of what lies within `radius` [m]. None where fewer than `min_neighbours` points, or
+/// points on a line, leave it open.
+Plane plane_of(const PlaneMoments& moments, float radius, int min_neighbours);
+
+/// At most 2000 numbers below `count`, evenly: for which of many places something is to be
+/// measured.
+std::vector<std::size_t> sample_of(std::size_t count);
+
+/// The median; 0 of nothing.
+float median(std::vector<float> values);
+
+/// The typical thickness of planes fitted at some places [m]; fit(i) of those in sample_of(count).
+float typical_thickness(std::size_t count, const std::function<Plane(std::size_t)>& fit);
+
+/// A radius wide enough for the noise: from `start` up until the typical neighbourhood, which
+/// thickness(radius) is to find out, is at most a fifth of its radius thick, or four times `start`.
+float suitable_radius(float start, const std::function<float(float radius)>& thickness);
+
+}  // namespace posevote
