@@ -9,13 +9,13 @@
 // are taken over cubes of half the radius: O(n log n).
 //
 //   drop_flat: {in: [cloud, points, scale], out: points, min_relief: 0.03}
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/prepare/grid.hpp"
+#include "nodes/prepare/spread.hpp"
 #include "nodes/prepare/voxels.hpp"
 
 namespace posevote {
@@ -47,9 +47,8 @@ std::vector<Moments> moments_of(const Cloud& cloud, const Voxels& voxels) {
 
 double relief_of(const Moments& sum) {
   if (!(sum.count > 0)) return 0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum.squares / sum.count,
-                                                              Eigen::EigenvaluesOnly);
-  return 1 - solver.eigenvalues()[2];
+  // Eigenvalues of n n^T sum up to one, so what the largest lacks is the least of the complement's.
+  return spread_of(Eigen::Matrix3d::Identity() - sum.squares / sum.count).least;
 }
 
 /// The relief around each point of the cloud: that of its cube and the cubes around.

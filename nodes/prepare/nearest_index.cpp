@@ -161,6 +161,10 @@ class NearestIndex::Search {
 std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center, float distance,
                                                const std::vector<char>& hidden) const {
   if (points_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
+  // What is found within the edge spares a look at all that is farther.
+  const auto edge = static_cast<float>(1 / per_edge_);
+  if (distance > edge)
+    if (const std::optional<Neighbour> near = Search(*this, center, edge, hidden).run()) return near;
   return Search(*this, center, distance, hidden).run();
 }
 

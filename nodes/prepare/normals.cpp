@@ -52,8 +52,9 @@ Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
     throw std::runtime_error("none of its " + std::to_string(cloud.points.rows()) +
                              " points has a usable normal");
   Cloud out;
-  out.points = cloud.points(kept, Eigen::all);
-  out.normals = normals(kept, Eigen::all);
+  const bool all = std::ssize(kept) == normals.rows();
+  out.points = all ? cloud.points : PointMatrix(cloud.points(kept, Eigen::all));
+  out.normals = all ? normals : PointMatrix(normals(kept, Eigen::all));
   out.viewpoint = cloud.viewpoint;
   out.image = cloud.image;
   out.pixels = cloud.pixels;

@@ -51,6 +51,9 @@ std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanSt
       const Instance& instance = found.emplace_back(
           Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
       search->accept();
+      if (std::all_of(sorted.begin(), sorted.end(),
+                      [](const ObjectSearch* s) { return s->is_full(); }))
+        return found;
       scan.take_out(search->model(), instance.candidate.T_scene_model,
                     search->params().explained_distance);
       search->choose();

@@ -63,6 +63,8 @@ class ObjectSearch {
   /// Whether `best` is of the scan as it is now. If not, its score is about an upper bound, because
   /// points that were taken out support nothing any more.
   bool is_current() const { return chosen_at_ == scan_.takes; }
+  /// Whether all instances that may be are found.
+  bool is_full() const { return accepted_ == params_.max_instances; }
   /// Whether other poses may be proposed for the scan as it is now.
   bool may_propose() const { return !is_full() && proposed_at_ != scan_.takes; }
 
@@ -75,7 +77,6 @@ class ObjectSearch {
   void accept();
 
  private:
-  bool is_full() const { return accepted_ == params_.max_instances; }
   void choose_among_judged();
   void judge(std::size_t begin, std::size_t end, Eigen::Index samples);
   void judge_again();
