@@ -42,8 +42,7 @@ Value call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
     }
   });
   for (std::size_t object = 0; object < count; ++object)
-    if (!errors[object].empty())
-      throw std::runtime_error("object " + std::to_string(object + 1) + ": " + errors[object]);
+    if (!errors[object].empty()) throw ObjectError(object, errors[object]);
   return std::make_shared<const Slots>(std::move(outputs));
 }
 

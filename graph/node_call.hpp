@@ -2,14 +2,28 @@
 // Calls one planned node: its function once, or, lifted, once for each object in parallel.
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "graph/plan.hpp"
 
 namespace posevote::graph {
 
+/// What a node threw for one of the objects; what() begins with "object I: ", counted from 1.
+class ObjectError : public std::runtime_error {
+ public:
+  ObjectError(std::size_t object_index, const std::string& reason)
+      : std::runtime_error("object " + std::to_string(object_index + 1) + ": " + reason),
+        object(object_index),
+        cause(reason) {}
+
+  std::size_t object;  ///< counted from 0
+  std::string cause;
+};
+
 /// Returns the output value (null for a node that only writes). Throws what the node throws; of
-/// several failing objects, the first one's exception, as std::runtime_error "object I: what".
+/// several failing objects, the first one's exception, as an ObjectError.
 Value call_node(const PlannedNode& node, const std::vector<Value>& inputs,
                 const FrameContext& context);
 

@@ -196,6 +196,8 @@ class Runner {
       if (node.output >= 0) state.values[std::size_t(node.output)] = std::move(value);
     } catch (const std::bad_alloc&) {
       state.failures[i] = {node.name, "out of memory"};
+    } catch (const ObjectError& error) {
+      state.failures[i] = {node.name, error.what(), error.object, error.cause};
     } catch (const std::exception& error) {
       state.failures[i] = {node.name, error.what()};
     } catch (...) {

@@ -3,7 +3,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -23,14 +22,11 @@ std::string parameters_with_names(const Configuration& configuration, const Mode
   return text;
 }
 
-/// The graph counts the objects of a node that runs once for each; whoever reads it wants the file.
-std::string with_file(const std::string& what, const ModelFiles& models) {
-  std::size_t object = 0;
-  int length = 0;
-  if (std::sscanf(what.c_str(), "object %zu: %n", &object, &length) != 1 || length == 0 ||
-      object == 0 || object > models.size())
-    return what;
-  return models[object - 1].path.string() + ": " + what.substr(static_cast<std::size_t>(length));
+/// The graph numbers the objects of a node that runs once for each; whoever reads it wants the
+/// file.
+std::string message(const graph::Failure& failure, const ModelFiles& models) {
+  if (!failure.object) return failure.node + ": " + failure.what;
+  return failure.node + ": " + models.at(*failure.object).path.string() + ": " + failure.cause;
 }
 
 }  // namespace
@@ -40,8 +36,7 @@ std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
   graph::Frame frame;
   frame.inputs = {std::make_shared<const ModelFiles>(models)};
   const graph::FrameResult result = graph::run_one(configuration.models, {}, std::move(frame));
-  if (result.failure)
-    throw std::runtime_error(result.failure->node + ": " + with_file(result.failure->what, models));
+  if (result.failure) throw std::runtime_error(message(*result.failure, models));
   return std::static_pointer_cast<const ModelLibrary>(result.result);
 }
 

@@ -4,7 +4,9 @@
 // that could not be read.
 //
 //   load_models: {in: model_files, out: model_meshes, unit: mm}
+#include <Eigen/Geometry>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,6 +24,17 @@ struct Params {
   std::string unit = "m";
 };
 
+Cloud load_model(const std::filesystem::path& file, double metres) {
+  Cloud model = read_cloud(file, metres);
+  Eigen::AlignedBox3f box;
+  for (Eigen::Index i = 0; i < model.points.rows(); ++i)
+    if (model.points.row(i).allFinite()) box.extend(model.points.row(i).transpose());
+  if (box.isEmpty() || !(box.diagonal().norm() > 0))
+    throw std::runtime_error("has " + std::to_string(model.points.rows()) +
+                             " points and no extent: expected a surface");
+  return model;
+}
+
 PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
   if (files.empty()) throw std::runtime_error("there are no models to load");
   PerObject<Cloud> models;
@@ -30,7 +43,7 @@ PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
       models.slots[i] =
-          std::make_shared<const Cloud>(read_cloud(files[i].path, metres_per(params.unit)));
+          std::make_shared<const Cloud>(load_model(files[i].path, metres_per(params.unit)));
     } catch (const std::exception& error) {
       problems[i] = files[i].path.string() + ": " + error.what();
     }

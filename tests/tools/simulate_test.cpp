@@ -118,6 +118,20 @@ TEST_CASE("a folder that holds something is refused", "[simulate]") {
   CHECK(all_files(folder / "new.unfinished").size() == 1);
 }
 
+TEST_CASE("an empty folder is filled, not replaced", "[simulate]") {
+  const TemporaryFolder folder;
+  const std::string spec = folder.write("spec.yaml", kSmall);
+  const fs::path out = folder / "mounted", elsewhere = folder / "link";
+  fs::create_directory(out);
+  fs::create_directory_symlink(out, elsewhere);
+  fs::create_directories(out / ".unfinished" / "models");  // of a simulation that was stopped
+  simulate(spec, elsewhere);
+  CHECK(fs::is_symlink(elsewhere));
+  CHECK(fs::exists(out / "test_targets_bop19.json"));
+  CHECK(!fs::exists(out / ".unfinished"));
+  CHECK_THROWS_AS(simulate(spec, out), std::invalid_argument);
+}
+
 TEST_CASE("all problems of a spec are reported, with their places", "[simulate]") {
   const TemporaryFolder folder;
   const std::string file = folder.write("spec.yaml", R"(seed: x

@@ -158,6 +158,14 @@ void make_images(const Studio& studio, std::size_t step, BopWriter& writer) {
               }));
 }
 
+/// What is there besides an unfinished simulation.
+bool is_taken(const fs::path& out, const fs::path& unfinished) {
+  if (!fs::exists(out)) return false;
+  if (!fs::is_directory(out)) return true;
+  return std::any_of(fs::directory_iterator(out), fs::directory_iterator(),
+                     [&](const auto& entry) { return entry.path() != unfinished; });
+}
+
 /// What a simulation that was stopped left; somebody else's folder stays.
 void remove_unfinished(const fs::path& folder) {
   if (!fs::exists(folder)) return;
@@ -173,11 +181,14 @@ void remove_unfinished(const fs::path& folder) {
 
 void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
   const Spec spec = read_spec(spec_file);
-  if (fs::exists(out) && (!fs::is_directory(out) || !fs::is_empty(out)))
-    throw std::invalid_argument(out.string() + ": is not an empty folder; choose another --out");
-  // Under its name there is a whole set or none.
+  // Under its name there is a whole set or none. An empty folder stays the one it is: it may be a
+  // mount point, or where somebody's shell stands.
   const fs::path folder = out.has_filename() ? out : out.parent_path();
-  const fs::path unfinished = folder.string() + ".unfinished";
+  const bool exists = fs::exists(folder);
+  const fs::path unfinished =
+      exists ? folder / ".unfinished" : fs::path(folder.string() + ".unfinished");
+  if (is_taken(folder, unfinished))
+    throw std::invalid_argument(out.string() + ": is not an empty folder; choose another --out");
   remove_unfinished(unfinished);
   const Studio studio = open_studio(spec);
   BopWriter writer(unfinished);
@@ -186,8 +197,10 @@ void simulate(const std::string& spec_file, const fs::path& out, std::size_t ste
                      is_round_shape(studio.spec.models[i].shape));
   make_images(studio, step, writer);
   writer.finish();
-  fs::remove(folder);
-  fs::rename(unfinished, folder);
+  if (!exists) return fs::rename(unfinished, folder);
+  const std::vector<fs::path> made(fs::directory_iterator(unfinished), fs::directory_iterator{});
+  for (const fs::path& path : made) fs::rename(path, folder / path.filename());
+  fs::remove(unfinished);
 }
 
 }  // namespace posevote

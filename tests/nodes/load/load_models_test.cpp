@@ -11,7 +11,8 @@ TEST_CASE("load_models: one cloud a file, in order", "[load]") {
   ModelFiles files;
   for (int i = 0; i < 20; ++i) {
     const std::string name = "model" + std::to_string(i);
-    files.push_back({dir.write(name + ".obj", "v " + std::to_string(i) + " 0 0\n"), i + 1, name});
+    files.push_back(
+        {dir.write(name + ".obj", "v " + std::to_string(i) + " 0 0\nv 0 1 0\n"), i + 1, name});
   }
   const auto models = run_node<PerObject<Cloud>>("load_models", {{"unit", "mm"}}, files);
   REQUIRE(models.size() == 20);
@@ -25,10 +26,12 @@ TEST_CASE("load_models: errors name every file that could not be read", "[load]"
   const TempDir dir;
   const ModelFiles files{{dir.path("a.ply"), 1, "a"},
                          {dir.write("b.obj", "v 0 0 0\n"), 2, "b"},
-                         {dir.write("c.obj", "v 0 0\n"), 3, "c"}};
+                         {dir.write("c.obj", "v 0 0\n"), 3, "c"},
+                         {dir.write("d.obj", "v 1 1 0\nv 0 0 0\n"), 4, "d"}};
   const auto load = [](const ModelFiles& f) { run_node<PerObject<Cloud>>("load_models", {}, f); };
-  CHECK(error_of([&] { load(files); }) == files[0].path.string() + ": there is no such file; " +
-                                              files[2].path.string() +
-                                              ": line 1: ends where a number was expected");
+  CHECK(error_of([&] { load(files); }) ==
+        files[0].path.string() + ": there is no such file; " + files[1].path.string() +
+            ": has 1 points and no extent: expected a surface; " + files[2].path.string() +
+            ": line 1: ends where a number was expected");
   CHECK_THAT(error_of([&] { load({}); }), has("no models"));
 }
