@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph/node_call.hpp"
 
+#include <new>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "graph/parallel.hpp"
 
@@ -30,19 +33,21 @@ Value call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
                   const FrameContext& context) {
   const std::size_t count = count_objects(node, inputs);
   Slots outputs(count);
-  std::vector<std::string> errors(count);
+  std::vector<std::optional<std::string>> errors(count);
   parallel_for(count, 1, [&](std::size_t object) {
     std::vector<Value> arguments = inputs;
     for (std::size_t i = 0; i < inputs.size(); ++i)
       if (node.lift[i]) arguments[i] = slots_of(inputs[i])[object];
     try {
       outputs[object] = node.spec->call(arguments, context, node.params.get());
+    } catch (const std::bad_alloc&) {
+      errors[object] = "out of memory";
     } catch (const std::exception& error) {
       errors[object] = error.what();
     }
   });
   for (std::size_t object = 0; object < count; ++object)
-    if (!errors[object].empty()) throw ObjectError(object, errors[object]);
+    if (errors[object]) throw ObjectError(object, *errors[object]);
   return std::make_shared<const Slots>(std::move(outputs));
 }
 

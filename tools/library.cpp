@@ -25,8 +25,9 @@ std::string parameters_with_names(const Configuration& configuration, const Mode
 /// The graph numbers the objects of a node that runs once for each; whoever reads it wants the
 /// file.
 std::string message(const graph::Failure& failure, const ModelFiles& models) {
-  if (!failure.object) return failure.node + ": " + failure.what;
-  return failure.node + ": " + models.at(*failure.object).path.string() + ": " + failure.cause;
+  if (!failure.object || *failure.object >= models.size())
+    return failure.node + ": " + failure.what;
+  return failure.node + ": " + models[*failure.object].path.string() + ": " + failure.cause;
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ void add_simulate(CLI::App& app, SimulateCommand& simulate) {
       "Example:\n  posevote simulate configs/demo_scenes.yaml --out out/scenes\n\n"
       "Writes a data set in BOP layout, with true poses, and PLY scans in metres beside it.");
   command->add_option("spec", simulate.spec, "What to make (YAML)")->required();
-  command->add_option("--out", simulate.out, "A new folder for the data set")
+  command->add_option("--out", simulate.out, "A new or empty folder for the data set")
       ->required()
       ->type_name("DIR");
 }

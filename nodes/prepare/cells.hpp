@@ -18,6 +18,7 @@ inline std::vector<std::uint32_t> finite_rows(const PointMatrix& points) {
 
 /// Where to look for a key first in a table of mask + 1 slots, a power of two.
 inline std::size_t scatter(std::uint64_t key, std::size_t mask) {
+  key ^= key >> 32;              // all of it counts in the lower half of the product
   key *= 0x9E3779B97F4A7C15ULL;  // Fibonacci hashing
   return static_cast<std::size_t>(key >> 32) & mask;
 }

@@ -45,12 +45,6 @@ std::vector<Moments> moments_of(const Cloud& cloud, const Voxels& voxels) {
   return moments;
 }
 
-double relief_of(const Moments& sum) {
-  if (!(sum.count > 0)) return 0;
-  // Eigenvalues of n n^T sum up to one, so what the largest lacks is the least of the complement's.
-  return spread_of(Eigen::Matrix3d::Identity() - sum.squares / sum.count).least;
-}
-
 /// The relief around each point of the cloud: that of its cube and the cubes around.
 std::vector<float> relief_around(const Cloud& cloud, float radius) {
   const Voxels voxels = group_by_voxel(cloud.points, radius / 2);
@@ -65,7 +59,7 @@ std::vector<float> relief_around(const Cloud& cloud, float radius) {
                            sum.squares += moments[near].squares;
                            sum.count += moments[near].count;
                          });
-    const auto here = static_cast<float>(relief_of(sum));
+    const auto here = sum.count > 0 ? static_cast<float>(relief_of(sum.squares / sum.count)) : 0.0F;
     for (const std::uint32_t i : voxels[v]) relief[i] = here;
   });
   return relief;

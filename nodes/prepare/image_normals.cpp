@@ -14,11 +14,11 @@
 namespace posevote {
 namespace {
 
-constexpr float kNowhere = 1e9F;  // no measurement; finite, so that times 0 it is 0
-constexpr float kMostSpacings =
-    12;  // in a radius: beyond, there are more pixels than a plane needs
+constexpr float kNowhere = 1e9F;       // no measurement; finite, so that times 0 it is 0
+constexpr float kMostSpacings = 12;    // in a radius: more than a plane needs
 constexpr float kTogether = 1.0F / 3;  // of the radius, between pixels that share a plane
-constexpr int kFewest = 5;             // neighbours of a plane that tells the noise
+// Of a window, on average: near points before a far ground have large ones.
+constexpr float kMostPixels = 4 * (2 * kMostSpacings) * (2 * kMostSpacings);
 
 /// A point of the cloud and its pixel.
 struct Place {
@@ -61,7 +61,19 @@ class PixelPlanes {
       }
       if (nearest < kNowhere / 2) distances.push_back(nearest);
     }
-    return median(std::move(distances));
+    return upper_median(std::move(distances));
+  }
+
+  /// Pixels that a plane looks at, on average.
+  float window_size(float radius) const {
+    const std::vector<std::size_t> sample = sample_of(places_.size());
+    std::vector<GridRun> rows;
+    double sum = 0;
+    for (const std::size_t i : sample) {
+      find_window(point(places_[i].pixel), radius, rows);
+      sum += static_cast<double>(rows.size()) * (rows.front().end - rows.front().begin);
+    }
+    return static_cast<float>(sum / static_cast<double>(sample.size()));
   }
 
   Plane fit(const Eigen::Vector3f& place, float radius, int min_neighbours) const {
@@ -166,14 +178,18 @@ std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, floa
   const PixelPlanes planes(scan);
   const float spacing = planes.spacing();
   const float start = std::max(smallest, spacings * spacing);
-  if (!planes.complete() || !(spacing > 0) || start > kMostSpacings * spacing) return std::nullopt;
+  if (!planes.complete() || !(spacing > 0)) return std::nullopt;
+  const auto is_quick = [&](float radius) {
+    return radius <= kMostSpacings * spacing && planes.window_size(radius) <= kMostPixels;
+  };
   const auto& places = planes.places();
   const float radius = suitable_radius(start, [&](float tried) {
-    return typical_thickness(places.size(), [&](std::size_t i) {
-      return planes.fit(planes.point(places[i].pixel), tried, kFewest);
+    if (!is_quick(tried)) return 0.0F;  // no need to go on
+    return typical_thickness(places.size(), [&](std::size_t i, int least) {
+      return planes.fit(planes.point(places[i].pixel), tried, least);
     });
   });
-  if (radius > kMostSpacings * spacing) return std::nullopt;
+  if (!is_quick(radius)) return std::nullopt;
   const PointMatrix of_pixels = planes.normals(radius, min_neighbours);
   PointMatrix normals = PointMatrix::Zero(scan.points.rows(), 3);
   for (const auto& [point, pixel] : places) normals.row(point) = of_pixels.row(pixel);

@@ -10,17 +10,21 @@
 namespace posevote {
 namespace {
 
-constexpr int kBits = 20;  // of a block's place along each axis
-constexpr double kMostCubes = 1 << kBits;
-constexpr int kShift = 3;  // cubes along a block's side, as a power of two
+constexpr int kBits = 21;           // of a block's place along each axis
+constexpr double kFarthest = 1e18;  // cubes from the origin: farther ones are this far
+constexpr int kShift = 3;           // cubes along a block's side, as a power of two
 constexpr std::int64_t kSide = 1 << kShift;
 constexpr std::uint32_t kCubesPerBlock = kSide * kSide * kSide;
 constexpr std::size_t kFewestSlots = 64;
+constexpr std::size_t kPointsPerBlock = 8;  // at least, on average: more memory serves nobody
+constexpr std::size_t kFreeBlocks = 128;    // of which that is not asked
 
-/// Of a block's places.
+/// Of a block's places. Blocks so far apart that their places wrap share a key, which costs looks
+/// at points that are too far, no more.
 std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   std::uint64_t key = 0;
-  for (const std::int64_t place : {x, y, z}) key = key << kBits | static_cast<std::uint64_t>(place);
+  for (const std::int64_t place : {x, y, z})
+    key = key << kBits | (static_cast<std::uint64_t>(place) & ((std::uint64_t{1} << kBits) - 1));
   return key;
 }
 
@@ -35,24 +39,13 @@ std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
 NearestIndex::NearestIndex(const PointMatrix& points, float edge) {
   const std::vector<std::uint32_t> rows = finite_rows(points);
   if (rows.empty() || !(edge > 0) || !std::isfinite(edge)) return;
-  Eigen::Vector3f low = points.row(rows.front()).transpose(), high = low;
-  for (const std::uint32_t i : rows) {
-    low = low.cwiseMin(points.row(i).transpose());
-    high = high.cwiseMax(points.row(i).transpose());
-  }
-  origin_ = low.cast<double>();
-  // A trifle more: what is within the distance by rounding is in a cube beside, too.
-  per_edge_ = 1 / std::max(1.0001 * static_cast<double>(edge),
-                           (high.cast<double>() - origin_).maxCoeff() / kMostCubes);
-  slots_.resize(kFewestSlots);
-  std::vector<std::uint32_t> cubes(rows.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const auto [x, y, z] = cube_of(points.row(rows[k]).transpose().cast<double>());
-    const std::uint32_t block = claim(key_of(x >> kShift, y >> kShift, z >> kShift));
-    cubes[k] = block * kCubesPerBlock + place_in_block(x, y, z);
-    begin_.resize(std::size_t{blocks_} * kCubesPerBlock);
-    ++begin_[cubes[k]];
-  }
+  // A trifle more, so that a search for one edge seldom meets more than three cubes an axis.
+  per_edge_ = 1 / (1.0001 * static_cast<double>(edge));
+  std::vector<std::size_t> cubes = number_cubes(points, rows);
+  for (; blocks_ > kFreeBlocks + rows.size() / kPointsPerBlock; cubes = number_cubes(points, rows))
+    per_edge_ /= 2;
+  begin_.assign(std::size_t{blocks_} * kCubesPerBlock, 0);
+  for (const std::size_t cube : cubes) ++begin_[cube];
   std::uint32_t sum = 0;
   for (std::uint32_t& count : begin_) count = std::exchange(sum, sum + count);
   begin_.push_back(sum);
@@ -64,11 +57,25 @@ NearestIndex::NearestIndex(const PointMatrix& points, float edge) {
   }
 }
 
-/// Clamped to one beyond the outermost that hold points.
+/// Claims the blocks that hold points; the number of each one's cube.
+std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
+                                                    const std::vector<std::uint32_t>& rows) {
+  blocks_ = 0;
+  slots_.assign(kFewestSlots, {});
+  std::vector<std::size_t> cubes;
+  cubes.reserve(rows.size());
+  for (const std::uint32_t i : rows) {
+    const auto [x, y, z] = cube_of(points.row(i).transpose().cast<double>());
+    const std::uint32_t block = claim(key_of(x >> kShift, y >> kShift, z >> kShift));
+    cubes.push_back(std::size_t{block} * kCubesPerBlock + place_in_block(x, y, z));
+  }
+  return cubes;
+}
+
 NearestIndex::Cube NearestIndex::cube_of(const Eigen::Vector3d& point) const {
   const auto place = [this, &point](int axis) {
-    const double cube = std::floor((point[axis] - origin_[axis]) * per_edge_);
-    return static_cast<std::int64_t>(std::clamp(cube, -1.0, kMostCubes + 1));
+    const double cube = std::floor(point[axis] * per_edge_);
+    return static_cast<std::int64_t>(std::clamp(cube, -kFarthest, kFarthest));
   };
   return {place(0), place(1), place(2)};
 }
@@ -106,7 +113,6 @@ class NearestIndex::Search {
     const double reach = 1.000001 * static_cast<double>(distance);
     low_ = index.cube_of(center.cast<double>() - Eigen::Vector3d::Constant(reach));
     high_ = index.cube_of(center.cast<double>() + Eigen::Vector3d::Constant(reach));
-    for (std::int64_t& place : low_) place = std::max<std::int64_t>(place, 0);
   }
 
   std::optional<Neighbour> run() {
@@ -164,7 +170,8 @@ std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center, fl
   // What is found within the edge spares a look at all that is farther.
   const auto edge = static_cast<float>(1 / per_edge_);
   if (distance > edge)
-    if (const std::optional<Neighbour> near = Search(*this, center, edge, hidden).run()) return near;
+    if (const std::optional<Neighbour> near = Search(*this, center, edge, hidden).run())
+      return near;
   return Search(*this, center, distance, hidden).run();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "nodes/data/splitmix64.hpp"
 #include "nodes/prepare/spread.hpp"
 
 namespace posevote {
@@ -36,24 +37,27 @@ Plane plane_of(const PlaneMoments& moments, float radius, int min_neighbours) {
 }
 
 std::vector<std::size_t> sample_of(std::size_t count) {
+  const std::size_t step = std::max<std::size_t>(1, count / kSample);
   std::vector<std::size_t> sample;
-  for (std::size_t i = 0; i < count; i += std::max<std::size_t>(1, count / kSample))
-    sample.push_back(i);
+  for (std::size_t i = 0; i < count; i += step)
+    sample.push_back(std::min(i + splitmix64(i) % step, count - 1));
   return sample;
 }
 
-float median(std::vector<float> values) {
+float upper_median(std::vector<float> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-float typical_thickness(std::size_t count, const std::function<Plane(std::size_t)>& fit) {
+float typical_thickness(std::size_t count, const std::function<Plane(std::size_t, int)>& fit) {
+  constexpr int kFewest = 5;
   std::vector<float> thickness;
   for (const std::size_t i : sample_of(count))
-    if (const Plane plane = fit(i); !plane.normal.isZero()) thickness.push_back(plane.thickness);
-  return median(std::move(thickness));
+    if (const Plane plane = fit(i, kFewest); !plane.normal.isZero())
+      thickness.push_back(plane.thickness);
+  return upper_median(std::move(thickness));
 }
 
 float suitable_radius(float start, const std::function<float(float radius)>& thickness) {

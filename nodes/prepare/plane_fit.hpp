@@ -19,15 +19,16 @@ struct Plane {
 /// points on a line, leave it open.
 Plane plane_of(const PlaneMoments& moments, float radius, int min_neighbours);
 
-/// At most 2000 numbers below `count`, evenly: for which of many places something is to be
-/// measured.
+/// At most 2000 numbers below `count`, spread evenly but by chance, so that they follow no columns
+/// of an image: for which of many places something is to be measured.
 std::vector<std::size_t> sample_of(std::size_t count);
 
-/// The median; 0 of nothing.
-float median(std::vector<float> values);
+/// The median, of an even number the upper of the two; 0 of nothing.
+float upper_median(std::vector<float> values);
 
-/// The typical thickness of planes fitted at some places [m]; fit(i) of those in sample_of(count).
-float typical_thickness(std::size_t count, const std::function<Plane(std::size_t)>& fit);
+/// The typical thickness of planes at some of many places [m], by fit(place, min_neighbours).
+float typical_thickness(std::size_t count,
+                        const std::function<Plane(std::size_t place, int min_neighbours)>& fit);
 
 /// A radius wide enough for the noise: from `start` up until the typical neighbourhood, which
 /// thickness(radius) is to find out, is at most a fifth of its radius thick, or four times `start`.

@@ -20,7 +20,6 @@ namespace {
 
 constexpr float kMergePerRadius = 1.0F / 5;
 constexpr std::size_t kSample = 1000;
-constexpr int kFewest = 5;  // neighbours of a plane that tells the noise
 
 std::vector<float> weights_of(const Voxels& voxels, const PointGrid& grid) {
   std::vector<float> weights(voxels.size() + kGridPadding, 0);
@@ -140,7 +139,7 @@ std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smal
   const float radius = suitable_radius(start, [&](float tried) {
     planes.emplace(points, tried);
     return typical_thickness(planes->size(),
-                             [&](std::size_t v) { return planes->fit(v, kFewest); });
+                             [&](std::size_t v, int least) { return planes->fit(v, least); });
   });
   if (!planes || planes->radius() != radius) planes.emplace(points, radius);
   return planes;
@@ -173,7 +172,7 @@ float point_spacing(const PointMatrix& points) {
       });
     if (std::isfinite(nearest)) distances.push_back(std::sqrt(nearest));
   }
-  return median(std::move(distances));
+  return upper_median(std::move(distances));
 }
 
 }  // namespace posevote

@@ -47,4 +47,9 @@ Spread spread_of(const Eigen::Matrix3d& m) {
   return spread;
 }
 
+double relief_of(const Eigen::Matrix3d& mean_of_squares) {
+  // The eigenvalues sum up to one, so what the largest lacks is the least of the complement's.
+  return spread_of(Eigen::Matrix3d::Identity() - mean_of_squares).least;
+}
+
 }  // namespace posevote

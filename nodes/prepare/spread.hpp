@@ -17,4 +17,8 @@ struct Spread {
 /// alike, any direction between theirs. What is not finite lies on a line.
 Spread spread_of(const Eigen::Matrix3d& covariance);
 
+/// How much unit normals n differ: 1 - the largest eigenvalue of the mean of n n^T, 0 where all are
+/// parallel, at most 2/3.
+double relief_of(const Eigen::Matrix3d& mean_of_squares);
+
 }  // namespace posevote

@@ -15,8 +15,9 @@ struct Instance {
 };
 
 /// The instances in the order in which they were found; of equally good poses that of the lower
-/// obj_id, then the one that was proposed first. Takes what they explain out of the scan. A wrong
-/// object that fits a part of another one's points so does not get them before the right one.
+/// obj_id, then the one that was proposed first. Takes what they explain out of the scan, but for
+/// the last where no more may be found. A wrong object that fits a part of another one's points so
+/// does not get them before the right one.
 std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan);
 
 }  // namespace posevote

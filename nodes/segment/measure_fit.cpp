@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/segment/measure_fit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "graph/parallel.hpp"
+#include "nodes/prepare/spread.hpp"
 
 namespace posevote {
 namespace {
@@ -54,13 +54,6 @@ void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
   });
 }
 
-/// 1 - the largest eigenvalue of the mean of n n^T.
-double relief_of(const Eigen::Matrix3d& sum_of_squares, std::size_t count) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum_of_squares /
-                                                              static_cast<double>(count));
-  return std::max(0.0, 1 - solver.eigenvalues()[2]);
-}
-
 Fit count(const std::vector<Judged>& points) {
   Fit fit;
   double squared = 0;
@@ -82,7 +75,7 @@ Fit count(const std::vector<Judged>& points) {
   if (fit.supported == 0) return fit;
   fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
   fit.rmse = std::sqrt(squared / static_cast<double>(fit.supported));
-  fit.relief = relief_of(normals, fit.supported);
+  fit.relief = relief_of(normals / static_cast<double>(fit.supported));
   return fit;
 }
 

@@ -70,7 +70,7 @@ void ObjectSearch::choose() {
 
 void ObjectSearch::choose_among_judged() {
   best_ = best_finalist();
-  if (best_ && proposals_.votes_per_feature > 0) best_->consensus = consensus(*best_);
+  if (best_ && proposals_.votes_per_correspondence > 0) best_->consensus = consensus(*best_);
   chosen_at_ = scan_.takes;
   if (best_ && best_->confidence() > 0 && best_->confidence() >= params_.min_score) return;
   best_.reset();
@@ -181,7 +181,7 @@ double ObjectSearch::consensus(const Candidate& candidate) const {
   const std::size_t explained =
       scan_.count_explained(model_, candidate.T_scene_model, params_.tolerance);
   const double votes = static_cast<double>(std::max<std::size_t>(1, explained)) *
-                       proposals_.votes_per_feature / kUsualVotes;
+                       proposals_.votes_per_correspondence / kUsualVotes;
   const double share = candidate.mode.support / votes;
   return std::pow(std::min(1.0, share), kTrustInConsensus);
 }

@@ -32,9 +32,9 @@ struct Proposals {
   std::function<std::vector<PoseMode>()> propose;
   /// Makes the pose of a proposal on the short list better, before ICP; its support stays.
   std::function<PoseMode(const PoseMode& mode)> improve;
-  /// How many votes a feature casts, if a mode's support is their density: then it counts in the
-  /// score. 0: rivals' own measures differ in scale, and the fit alone makes their score.
-  std::uint32_t votes_per_feature = 0;
+  /// How many votes a correspondence casts, if a mode's support is their density: then it counts in
+  /// the score. 0: rivals' own measures differ in scale, and the fit alone makes their score.
+  std::uint32_t votes_per_correspondence = 0;
 };
 
 /// A pose of the object, and how it fits.

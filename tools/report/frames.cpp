@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "nodes/load/file_bytes.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -86,7 +87,8 @@ std::string models(const RunResults& run) {
   rows.reserve(models.size());
   for (const auto& [name, model] : models)
     rows.push_back({escape_markup(name), std::to_string(model.scores.size()),
-                    std::to_string(model.frames), html::number(median(model.scores), 3),
+                    std::to_string(model.frames),
+                    model.scores.empty() ? "-" : html::number(median(model.scores), 3),
                     histogram(model.scores)});
   return html::heading("Models") + html::table({{"model"},
                                                 {"detections", html::Kind::kNumber},

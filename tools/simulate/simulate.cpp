@@ -181,8 +181,8 @@ void remove_unfinished(const fs::path& folder) {
 
 void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
   const Spec spec = read_spec(spec_file);
-  // Under its name there is a whole set or none. An empty folder stays the one it is: it may be a
-  // mount point, or where somebody's shell stands.
+  // Under its name there is a whole set or none. An empty folder stays the one it is, for it may be
+  // a mount point, or where somebody's shell stands: what is made moves there at the end.
   const fs::path folder = out.has_filename() ? out : out.parent_path();
   const bool exists = fs::exists(folder);
   const fs::path unfinished =

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
+#include "nodes/prepare/plane_fit.hpp"
 #include "nodes/prepare/plane_normals.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -114,6 +116,28 @@ TEST_CASE("image_normals leaves to others what is no image, or too fine", "[prep
   other.points.row(3) = 1.01F * scan.points.row(4);  // in one pixel with another
   CHECK(refused(other));
   CHECK(refused(Cloud{}));
+}
+
+TEST_CASE("image_normals leaves near ground before a far one to others", "[prepare]") {
+  const auto with_near = [](int of_ten) {
+    return image_of([of_ten](float x, float) {
+      return static_cast<int>(1000 * (x + 1)) % 10 < of_ten ? 0.06F : 3.0F;
+    });
+  };
+  CHECK(!image_normals(with_near(4), kRadius, 6, 5));  // thousands of pixels a window
+  CHECK(image_normals(with_near(0), kRadius, 6, 5));
+}
+
+TEST_CASE("samples follow no columns", "[prepare]") {
+  const std::vector<std::size_t> sample = sample_of(std::size_t{1280} * 1000);
+  REQUIRE(sample.size() >= 1000);
+  std::set<std::size_t> columns;
+  for (const std::size_t i : sample) columns.insert(i % 1280);
+  CHECK(columns.size() > 500);
+  CHECK(std::is_sorted(sample.begin(), sample.end()));
+  CHECK(sample.back() < std::size_t{1280} * 1000);
+  CHECK(sample_of(3) == std::vector<std::size_t>{0, 1, 2});
+  CHECK(sample_of(0).empty());
 }
 
 TEST_CASE("image_normals takes points that are not finite, and those right before the camera",

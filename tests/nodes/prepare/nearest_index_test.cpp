@@ -75,6 +75,21 @@ TEST_CASE("an outlier far away costs no exactness", "[prepare]") {
   check_against_brute_force(points, 0.03F, random);
 }
 
+TEST_CASE("an outlier far away costs no time, sparse points no memory", "[prepare]") {
+  std::mt19937 random(4);
+  PointMatrix points = random_points(200000, 0.5F, random);
+  points.row(7) << 1e30F, -1e10F, 0;
+  const NearestIndex near(points, kReach);
+  const std::vector<char> hidden(200000, 0);
+  // Each by brute force would take a minute.
+  for (Eigen::Index i = 0; i < 100000; ++i) REQUIRE(near.nearest(points.row(i), kReach, hidden));
+  // 4 GB if each had a block of its own.
+  points = random_points(2000000, 1000, random);
+  const NearestIndex sparse(points, kReach);
+  for (std::uint32_t i = 0; i < 1000; ++i)
+    CHECK(sparse.nearest(points.row(i), kReach, std::vector<char>(2000000, 0))->index == i);
+}
+
 TEST_CASE("nothing is near nothing", "[prepare]") {
   const PointMatrix none(0, 3), one = PointMatrix::Zero(1, 3);
   CHECK(!NearestIndex(none, kReach).nearest({0, 0, 0}, kReach, {}));
