@@ -24,7 +24,7 @@ struct Failure {
   std::string what;
   /// Of a node that runs once for each object: which failed, from 0, and why, without its number.
   std::optional<std::size_t> object = std::nullopt;
-  std::string cause = "";
+  std::string cause{};
 };
 
 /// What enters: the context and one value for each of the plan's inputs, in the plan's order.
