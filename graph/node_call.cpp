@@ -40,10 +40,8 @@ Value call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
       if (node.lift[i]) arguments[i] = slots_of(inputs[i])[object];
     try {
       outputs[object] = node.spec->call(arguments, context, node.params.get());
-    } catch (const std::bad_alloc&) {
-      errors[object] = "out of memory";
     } catch (const std::exception& error) {
-      errors[object] = error.what();
+      errors[object] = reason_of(error);
     }
   });
   for (std::size_t object = 0; object < count; ++object)
@@ -52,6 +50,10 @@ Value call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
 }
 
 }  // namespace
+
+std::string reason_of(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
+}
 
 Value call_node(const PlannedNode& node, const std::vector<Value>& inputs,
                 const FrameContext& context) {

@@ -2,6 +2,7 @@
 // Calls one planned node: its function once, or, lifted, once for each object in parallel.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "graph/plan.hpp"
 
 namespace posevote::graph {
+
+/// What to tell of an exception; "out of memory" for std::bad_alloc.
+std::string reason_of(const std::exception& error);
 
 /// What a node threw for one of the objects; what() begins with "object I: ", counted from 1.
 class ObjectError : public std::runtime_error {

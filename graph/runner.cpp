@@ -194,12 +194,10 @@ class Runner {
     try {
       Value value = call_node(node, inputs, state.frame.context);
       if (node.output >= 0) state.values[std::size_t(node.output)] = std::move(value);
-    } catch (const std::bad_alloc&) {
-      state.failures[i] = {node.name, "out of memory"};
     } catch (const ObjectError& error) {
       state.failures[i] = {node.name, error.what(), error.object, error.cause};
     } catch (const std::exception& error) {
-      state.failures[i] = {node.name, error.what()};
+      state.failures[i] = {node.name, reason_of(error)};
     } catch (...) {
       state.failures[i] = {node.name, "unknown exception"};
     }

@@ -5,11 +5,11 @@
 //
 //   derive_scale: {in: model_meshes, out: scale, fraction: 0.006}
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "graph/registry.hpp"
+#include "nodes/data/extent.hpp"
 #include "nodes/data/features.hpp"
 
 namespace posevote {
@@ -26,14 +26,12 @@ Scale derive_scale(const PerObject<Cloud>& meshes, const Params& params) {
   if (meshes.slots.empty()) throw std::runtime_error("there are no models to derive a scale from");
   double sum = 0;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const PointMatrix& points = meshes[i].points;
-    const double diagonal =
-        points.rows() == 0 ? 0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-    if (!(diagonal > 0) || !std::isfinite(diagonal))
-      throw std::runtime_error(
-          "model " + std::to_string(i + 1) + " of " + std::to_string(meshes.size()) + " has " +
-          std::to_string(points.rows()) + " points and no extent: expected a surface");
-    sum += diagonal;
+    try {
+      sum += model_diagonal(meshes[i].points);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("model " + std::to_string(i + 1) + " of " +
+                               std::to_string(meshes.size()) + " " + error.what());
+    }
   }
   const double mean_diagonal = sum / static_cast<double>(meshes.size());
   return {static_cast<float>(std::max(params.finest, params.fraction * mean_diagonal))};

@@ -15,7 +15,6 @@ namespace {
 constexpr float kThickest = 0.2F;  ///< of the radius
 constexpr float kWiden = 1.25F;
 constexpr float kWidest = 4;  ///< x starting radius
-constexpr std::size_t kSample = 1000;
 
 Eigen::Matrix3d covariance_of(const PlaneMoments& sum) {
   Eigen::Matrix3d products;

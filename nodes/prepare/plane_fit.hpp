@@ -2,6 +2,7 @@
 // What fits of planes share, wherever the neighbours come from: voxels or the pixels of an image.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -19,8 +20,12 @@ struct Plane {
 /// points on a line, leave it open.
 Plane plane_of(const PlaneMoments& moments, float radius, int min_neighbours);
 
-/// At most 2000 numbers below `count`, spread evenly but by chance, so that they follow no columns
-/// of an image: for which of many places something is to be measured.
+/// Places at which something is measured that is wanted of all of them, at least, if there are
+/// more.
+constexpr std::size_t kSample = 1000;
+
+/// Some kSample numbers, fewer than twice as many, below `count`, spread evenly but by chance, so
+/// that they follow no columns of an image: for which of many places something is to be measured.
 std::vector<std::size_t> sample_of(std::size_t count);
 
 /// The median, of an even number the upper of the two; 0 of nothing.

@@ -19,7 +19,6 @@ namespace posevote {
 namespace {
 
 constexpr float kMergePerRadius = 1.0F / 5;
-constexpr std::size_t kSample = 1000;
 
 std::vector<float> weights_of(const Voxels& voxels, const PointGrid& grid) {
   std::vector<float> weights(voxels.size() + kGridPadding, 0);

@@ -17,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+constexpr const char *kModels = "models", *kSplit = "test", *kScans = "scans",
+                     *kTargets = "test_targets_bop19.json";
 constexpr int kSceneId = 1;
 constexpr double kLeastVisible = 0.1;  // BOP's targets leave out what is seen less
 
@@ -78,12 +80,12 @@ ordered_json info(const BodyView& view) {
 
 BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
   for (const fs::path& folder :
-       {out_ / "models", out_ / "test" / six_digits(kSceneId) / "depth", out_ / "scans"})
+       {out_ / kModels, out_ / kSplit / six_digits(kSceneId) / "depth", out_ / kScans})
     fs::create_directories(folder);  // std::filesystem_error is a runtime_error that names it
 }
 
 void BopWriter::add_model(int obj_id, const Cloud& mesh, bool is_round) {
-  write_ply(out_ / "models" / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
+  write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
   ordered_json entry{{"diameter", rounded(diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f size = mesh.points.colwise().maxCoeff() - low;
@@ -99,9 +101,9 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
   const int im_id = images_++;
   const std::string key = std::to_string(im_id), name = six_digits(im_id);
   const Camera& camera = sensor.camera;
-  write_text(out_ / "test" / six_digits(kSceneId) / "depth" / (name + ".png"),
+  write_text(out_ / kSplit / six_digits(kSceneId) / "depth" / (name + ".png"),
              encode_png(scan.depth));
-  write_ply(out_ / "scans" / (name + ".ply"), points_of(scan.depth, camera));
+  write_ply(out_ / kScans / (name + ".ply"), points_of(scan.depth, camera));
   cameras_[key] = {{"cam_K", {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0}},
                    {"depth_scale", camera.depth_scale}};
   gt_[key] = gt_info_[key] = ordered_json::array();
@@ -118,12 +120,16 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
 }
 
 void BopWriter::finish() const {
-  const fs::path scene = out_ / "test" / six_digits(kSceneId);
-  write_text(out_ / "models" / "models_info.json", lines(models_info_));
+  const fs::path scene = out_ / kSplit / six_digits(kSceneId);
+  write_text(out_ / kModels / "models_info.json", lines(models_info_));
   write_text(scene / "scene_camera.json", lines(cameras_));
   write_text(scene / "scene_gt.json", lines(gt_));
   write_text(scene / "scene_gt_info.json", lines(gt_info_));
-  write_text(out_ / "test_targets_bop19.json", targets_.dump(1) + "\n");
+  write_text(out_ / kTargets, targets_.dump(1) + "\n");
+}
+
+bool BopWriter::makes(const fs::path& name) {
+  return name == kModels || name == kSplit || name == kScans || name == kTargets;
 }
 
 }  // namespace posevote

@@ -170,8 +170,7 @@ bool is_taken(const fs::path& out, const fs::path& unfinished) {
 void remove_unfinished(const fs::path& folder) {
   if (!fs::exists(folder)) return;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const fs::path name = entry.path().filename();
-        name != "models" && name != "test" && name != "scans" && name != "test_targets_bop19.json")
+    if (!BopWriter::makes(entry.path().filename()))
       throw std::invalid_argument(entry.path().string() +
                                   ": is in the way, and no simulation made it; move it");
   fs::remove_all(folder);
