@@ -69,14 +69,16 @@ std::array<Group, 2> group(const Cloud& cloud, std::span<const std::uint32_t> me
 
 Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& params) {
   require_normals(cloud);
-  Cloud out = keep_oriented(cloud, cloud.normals);
+  const std::vector<std::uint32_t> usable = oriented_rows(cloud.points, cloud.normals);
   const Voxels voxels =
-      group_by_voxel(out.points, static_cast<float>(params.leaf_size) * scale.resolution);
+      group_by_voxel(cloud.points, usable, static_cast<float>(params.leaf_size) * scale.resolution);
   std::vector<Group> groups;
   groups.reserve(voxels.size());
   for (std::size_t v = 0; v < voxels.size(); ++v)
-    for (const Group& side : group(out, voxels[v]))
+    for (const Group& side : group(cloud, voxels[v]))
       if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
+  Cloud out = without_points(cloud);
+  out.dropped += static_cast<std::size_t>(cloud.points.rows()) - usable.size();
   out.points.resize(static_cast<Eigen::Index>(groups.size()), 3);
   out.normals.resize(out.points.rows(), 3);
   for (std::size_t i = 0; i < groups.size(); ++i) {

@@ -19,9 +19,58 @@ constexpr float kTogether = 1.0F / 3;  // of the radius, between pixels that sha
 // Of a window, on average: near points before a far ground have large ones.
 constexpr float kMostPixels = 4 * (2 * kMostSpacings) * (2 * kMostSpacings);
 
+// On smooth ground only the corners of tiles get planes of their own, whose normals are mixed
+// between them. That halves the time, and moves no more than noise does: a window is three tiles
+// wide.
+constexpr int kTile = 4;              // pixels
+constexpr float kSameNormal = 0.98F;  // cosine (11 deg) between the corners of smooth ground
+constexpr float kFlush = 0.45F;       // of the radius, of the ground off its corners' planes
+constexpr float kFarthest = 4;        // of the radius, between corners
+
 /// A point of the cloud and its pixel.
 struct Place {
   std::uint32_t point, pixel;
+};
+
+/// The ground between four points with normals: upper left and right, lower left and right.
+class Tile {
+ public:
+  struct Corner {
+    Eigen::Vector3f point = Eigen::Vector3f::Zero();
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< toward the sensor; 0: none
+  };
+
+  Tile(const std::array<Corner, 4>& corners, float radius) : corners_(corners), radius_(radius) {}
+
+  bool is_smooth() const {
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b)
+        if (!(corners_[a].normal.dot(corners_[b].normal) >= kSameNormal &&
+              (corners_[a].point - corners_[b].point).norm() <= kFarthest * radius_ &&
+              is_flush(corners_[a].point, corners_[b])))
+          return false;
+    return true;
+  }
+
+  /// Where x and y go from 0 to 1.
+  Corner at(float x, float y) const {
+    const std::array<float, 4> weights{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+    Corner mean;
+    for (std::size_t i = 0; i < 4; ++i) {
+      mean.point += weights[i] * corners_[i].point;
+      mean.normal += weights[i] * corners_[i].normal;
+    }
+    mean.normal.normalize();
+    return mean;
+  }
+
+  bool is_flush(const Eigen::Vector3f& point, const Corner& with) const {
+    return std::abs((point - with.point).dot(with.normal)) <= kFlush * radius_;
+  }
+
+ private:
+  std::array<Corner, 4> corners_;
+  float radius_;
 };
 
 /// A depth image as an array of points.
@@ -88,9 +137,23 @@ class PixelPlanes {
   /// Normals of all pixels.
   PointMatrix normals(float radius, int min_neighbours) const {
     PointMatrix normals = PointMatrix::Zero(Eigen::Index{width_} * height_, 3);
-    graph::parallel_for(static_cast<std::size_t>((height_ + 1) / 2), 1, [&](std::size_t row) {
-      for (int u = 0; u < width_; u += 2)
-        fit_block(u, 2 * static_cast<int>(row), radius, min_neighbours, normals);
+    const int columns = (width_ - 1) / kTile + 1, rows = (height_ - 1) / kTile + 1;
+    const std::vector<Tile::Corner> corners = tile_corners(columns, rows, radius, min_neighbours);
+    graph::parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row) {
+      for (int column = 0; column < columns; ++column) {
+        const auto upper =
+            corners.begin() + static_cast<std::ptrdiff_t>(row) * (columns + 1) + column;
+        const auto lower = upper + columns + 1;
+        const Tile tile({upper[0], upper[1], lower[0], lower[1]}, radius);
+        const bool smooth = tile.is_smooth();
+        for (int dv = 0; dv < kTile; dv += 2)
+          for (int du = 0; du < kTile; du += 2) {
+            const Block block = block_at(kTile * column + du, kTile * static_cast<int>(row) + dv);
+            const Tile::Corner mean = tile.at(middle_of(du), middle_of(dv));
+            if (!(smooth && take_normal(block, tile, mean, normals)))
+              fit_block(block, radius, min_neighbours, normals);
+          }
+      }
     });
     return normals;
   }
@@ -139,15 +202,56 @@ class PixelPlanes {
       rows.push_back({pixel_at(first.x(), v), pixel_at(last.x(), v) + 1});
   }
 
-  void fit_block(int u, int v, float radius, int min_neighbours, PointMatrix& normals) const {
-    std::array<std::uint32_t, 4> left{};
+  /// The corners of all tiles, a row and a column more than tiles; those behind the image's border
+  /// are on it.
+  std::vector<Tile::Corner> tile_corners(int columns, int rows, float radius,
+                                         int min_neighbours) const {
+    std::vector<Tile::Corner> corners(static_cast<std::size_t>((columns + 1) * (rows + 1)));
+    graph::parallel_for(corners.size(), 64, [&](std::size_t i) {
+      const int number = static_cast<int>(i);
+      const int column = number % (columns + 1), row = number / (columns + 1);
+      const std::uint32_t pixel =
+          pixel_at(std::min(kTile * column, width_ - 1), std::min(kTile * row, height_ - 1));
+      if (weights_[pixel] == 0) return;
+      const Eigen::Vector3f place = point(pixel);
+      const Eigen::Vector3f normal = fit(place, radius, min_neighbours).normal;
+      const float side = normal.dot(viewpoint_ - place) < 0 ? -1 : 1;
+      corners[i] = {place, side * normal};
+    });
+    return corners;
+  }
+
+  /// Of a block's two pixels, in a tile.
+  static float middle_of(int first) { return (static_cast<float>(first) + 0.5F) / kTile; }
+
+  /// The pixels with a measurement of 2 x 2.
+  struct Block {
+    std::array<std::uint32_t, 4> pixels{};
     std::size_t count = 0;
-    for (int dv = 0; dv < 2 && v + dv < height_; ++dv)
-      for (int du = 0; du < 2 && u + du < width_; ++du)
-        if (const std::uint32_t pixel = pixel_at(u + du, v + dv); weights_[pixel] != 0)
-          left[count++] = pixel;
+  };
+
+  Block block_at(int u, int v) const {
+    Block block;
+    for (int j = v; j < std::min(v + 2, height_); ++j)
+      for (int i = u; i < std::min(u + 2, width_); ++i)
+        if (const std::uint32_t pixel = pixel_at(i, j); weights_[pixel] != 0)
+          block.pixels[block.count++] = pixel;
+    return block;
+  }
+
+  /// False where the block is off the tile's ground.
+  bool take_normal(const Block& block, const Tile& tile, const Tile::Corner& ground,
+                   PointMatrix& normals) const {
+    for (std::size_t i = 0; i < block.count; ++i)
+      if (!tile.is_flush(point(block.pixels[i]), ground)) return false;
+    for (std::size_t i = 0; i < block.count; ++i) normals.row(block.pixels[i]) = ground.normal;
+    return true;
+  }
+
+  void fit_block(const Block& block, float radius, int min_neighbours, PointMatrix& normals) const {
+    std::array<std::uint32_t, 4> left = block.pixels;
     const auto begin = left.begin();
-    for (auto end = begin + static_cast<std::ptrdiff_t>(count); end != begin;) {
+    for (auto end = begin + static_cast<std::ptrdiff_t>(block.count); end != begin;) {
       // Those of one surface with the last go to the end.
       const Eigen::Vector3f last = point(*(end - 1));
       const auto group = std::partition(begin, end, [&](std::uint32_t pixel) {

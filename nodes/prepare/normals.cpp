@@ -43,22 +43,33 @@ void turn_toward(const Eigen::Vector3f& viewpoint, const PointMatrix& points,
     if (normals.row(i).dot(viewpoint.transpose() - points.row(i)) < 0) normals.row(i) *= -1.0F;
 }
 
-Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < normals.rows(); ++i)
-    if (!normals.row(i).isZero() && normals.row(i).allFinite() && cloud.points.row(i).allFinite())
-      kept.push_back(i);
-  if (kept.empty())
-    throw std::runtime_error("none of its " + std::to_string(cloud.points.rows()) +
-                             " points has a usable normal");
+Cloud without_points(const Cloud& cloud) {
   Cloud out;
-  const bool all = std::ssize(kept) == normals.rows();
-  out.points = all ? cloud.points : PointMatrix(cloud.points(kept, Eigen::all));
-  out.normals = all ? normals : PointMatrix(normals(kept, Eigen::all));
   out.viewpoint = cloud.viewpoint;
   out.image = cloud.image;
   out.pixels = cloud.pixels;
-  out.dropped = cloud.dropped + static_cast<std::size_t>(cloud.points.rows()) - kept.size();
+  out.dropped = cloud.dropped;
+  return out;
+}
+
+std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals) {
+  std::vector<std::uint32_t> rows;
+  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+    if (!normals.row(i).isZero() && normals.row(i).allFinite() && points.row(i).allFinite())
+      rows.push_back(static_cast<std::uint32_t>(i));
+  if (rows.empty())
+    throw std::runtime_error("none of its " + std::to_string(points.rows()) +
+                             " points has a usable normal");
+  return rows;
+}
+
+Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
+  const std::vector<std::uint32_t> kept = oriented_rows(cloud.points, normals);
+  Cloud out = without_points(cloud);
+  const bool all = std::ssize(kept) == normals.rows();
+  out.points = all ? cloud.points : PointMatrix(cloud.points(kept, Eigen::all));
+  out.normals = all ? normals : PointMatrix(normals(kept, Eigen::all));
+  out.dropped += static_cast<std::size_t>(cloud.points.rows()) - kept.size();
   return out;
 }
 

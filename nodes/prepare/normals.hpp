@@ -2,6 +2,9 @@
 // What the nodes that make normals, of scans and of models, share.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "nodes/data/cloud.hpp"
 
 namespace posevote {
@@ -16,9 +19,15 @@ void normalise(PointMatrix& normals);
 /// Turns each normal toward the viewpoint.
 void turn_toward(const Eigen::Vector3f& viewpoint, const PointMatrix& points, PointMatrix& normals);
 
-/// The finite points with a finite normal other than (0, 0, 0); the others are added to `dropped`.
-/// Faces are left behind: nothing that follows needs them. Throws std::runtime_error if no point is
-/// left.
+/// What a cloud tells beside its points, their normals and faces.
+Cloud without_points(const Cloud& cloud);
+
+/// The numbers of the finite points with a finite normal other than (0, 0, 0). Throws
+/// std::runtime_error if there are none.
+std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals);
+
+/// Those points, with these normals; the others are added to `dropped`. Faces are left behind:
+/// nothing that follows needs them. Throws as oriented_rows.
 Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals);
 
 /// Throws std::runtime_error if the points have no normals.

@@ -5,17 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "nodes/prepare/cells.hpp"
 #include "nodes/prepare/radix_sort.hpp"
 
 namespace posevote {
 namespace {
-
-struct Keyed {
-  std::uint32_t z, y, x;
-  std::uint32_t index;
-
-  bool same_voxel(const Keyed& other) const { return x == other.x && y == other.y && z == other.z; }
-};
 
 [[noreturn]] void throw_too_large(double extent, double leaf) {
   std::ostringstream text;
@@ -24,28 +18,55 @@ struct Keyed {
   throw std::runtime_error(text.str());
 }
 
-std::vector<Keyed> keyed_points(const PointMatrix& points, double leaf) {
-  std::vector<Keyed> keyed;
+struct Extent {
   Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low;
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    if (!points.row(i).allFinite()) continue;
+
+  double largest() const { return (high - low).maxCoeff(); }
+};
+
+Extent extent_of(const PointMatrix& points, const std::vector<std::uint32_t>& rows) {
+  Extent extent;
+  for (const std::uint32_t i : rows) {
     const Eigen::Array3d point = points.row(i).transpose().cast<double>();
-    low = low.min(point);
-    high = high.max(point);
-    keyed.push_back({0, 0, 0, static_cast<std::uint32_t>(i)});
+    extent.low = extent.low.min(point);
+    extent.high = extent.high.max(point);
   }
-  if (keyed.empty()) return keyed;
-  const double extent = (high - low).maxCoeff();
-  if (!(extent / leaf < 4e9)) throw_too_large(extent, leaf);
-  for (Keyed& entry : keyed) {
-    const Eigen::Array3d point = points.row(entry.index).transpose().cast<double>();
-    const Eigen::Array3d cell = (point - low) / leaf;
-    entry.x = static_cast<std::uint32_t>(cell.x());
-    entry.y = static_cast<std::uint32_t>(cell.y());
-    entry.z = static_cast<std::uint32_t>(cell.z());
+  return extent;
+}
+
+/// A point and the number of its voxel, which counts along x, then y, then z.
+template <class Number>
+struct Member {
+  Number voxel;
+  std::uint32_t index;
+};
+
+template <class Number>
+Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+               const Extent& extent, const Eigen::Array3d& counts, double leaf) {
+  const auto columns = static_cast<Number>(counts.x()), lines = static_cast<Number>(counts.y());
+  std::vector<Member<Number>> members(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Array3d point = points.row(rows[i]).transpose().cast<double>();
+    const Eigen::Array3d cell = (point - extent.low) / leaf;
+    members[i] = {
+        (static_cast<Number>(cell.z()) * lines + static_cast<Number>(cell.y())) * columns +
+            static_cast<Number>(cell.x()),
+        rows[i]};
   }
-  return keyed;
+  for (unsigned shift = 0; shift < std::numeric_limits<Number>::digits; shift += 32)
+    radix_sort(members, [shift](const Member<Number>& one) {
+      return static_cast<std::uint32_t>(one.voxel >> shift);
+    });
+  Voxels voxels;
+  voxels.order.reserve(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (i == 0 || members[i].voxel != members[i - 1].voxel) voxels.starts.push_back(i);
+    voxels.order.push_back(members[i].index);
+  }
+  voxels.starts.push_back(members.size());
+  return voxels;
 }
 
 }  // namespace
@@ -64,19 +85,19 @@ PointMatrix Voxels::centroids(const PointMatrix& points) const {
   return centroids;
 }
 
+Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+                      float leaf) {
+  if (rows.empty()) return {{}, {0}};
+  const auto edge = static_cast<double>(leaf);
+  const Extent extent = extent_of(points, rows);
+  const Eigen::Array3d counts = ((extent.high - extent.low) / edge).floor() + 1;
+  if (!(counts.prod() < 1e19)) throw_too_large(extent.largest(), edge);
+  return counts.prod() < 4e9 ? grouped<std::uint32_t>(points, rows, extent, counts, edge)
+                             : grouped<std::uint64_t>(points, rows, extent, counts, edge);
+}
+
 Voxels group_by_voxel(const PointMatrix& points, float leaf) {
-  std::vector<Keyed> keyed = keyed_points(points, leaf);
-  radix_sort(keyed, [](const Keyed& one) { return one.x; });
-  radix_sort(keyed, [](const Keyed& one) { return one.y; });
-  radix_sort(keyed, [](const Keyed& one) { return one.z; });
-  Voxels voxels;
-  voxels.order.reserve(keyed.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    if (i == 0 || !keyed[i].same_voxel(keyed[i - 1])) voxels.starts.push_back(i);
-    voxels.order.push_back(keyed[i].index);
-  }
-  voxels.starts.push_back(voxels.order.size());
-  return voxels;
+  return group_by_voxel(points, finite_rows(points), leaf);
 }
 
 }  // namespace posevote

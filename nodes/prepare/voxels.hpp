@@ -26,9 +26,13 @@ struct Voxels {
   PointMatrix centroids(const PointMatrix& points) const;
 };
 
-/// Sorts the finite points into cubes of edge `leaf` [m] whose corner is the points' own minimum: a
-/// cloud that is moved as a whole is grouped alike. Throws std::runtime_error where the cloud spans
-/// more than four billion cubes along an axis.
+/// Sorts the points with the numbers `rows`, which are finite, into cubes of edge `leaf` [m] whose
+/// corner is their own minimum: a cloud that is moved as a whole is grouped alike. Throws
+/// std::runtime_error where their box holds more than 10^19 cubes.
+Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+                      float leaf);
+
+/// The same of all finite points.
 Voxels group_by_voxel(const PointMatrix& points, float leaf);
 
 }  // namespace posevote

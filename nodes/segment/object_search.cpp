@@ -11,10 +11,11 @@
 namespace posevote {
 namespace {
 
-constexpr std::size_t kShortlist = 100;  // judged by kLook model points
+constexpr std::size_t kShortlist = 100;  // improved, judged by kSketch model points
 constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
 constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
-constexpr Eigen::Index kLook = 1000;     // model points that judge an improved one
+constexpr Eigen::Index kSketch = 300;    // ... an improved one
+constexpr Eigen::Index kLook = 1000;     // ... one of those that may be a finalist
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 constexpr double kHopeless = 0.25;       // of what is needed: ICP seldom raises a score fourfold
 
@@ -58,9 +59,9 @@ void ObjectSearch::propose() {
   }
   graph::parallel_for(pool_.size(), 1,
                       [this](std::size_t i) { pool_[i].mode = proposals_.improve(pool_[i].mode); });
-  judge(0, pool_.size(), kLook);
+  judge(0, pool_.size(), kSketch);
   proposed_at_ = scan_.takes;
-  choose_among_judged();
+  choose();
 }
 
 void ObjectSearch::choose() {
