@@ -44,12 +44,12 @@ struct Member {
 
 template <class Number>
 Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
-               const Extent& extent, const Eigen::Array3d& counts, double leaf) {
+               const Extent& extent, const Eigen::Array3d& counts, double per_leaf) {
   const auto columns = static_cast<Number>(counts.x()), lines = static_cast<Number>(counts.y());
   std::vector<Member<Number>> members(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Eigen::Array3d point = points.row(rows[i]).transpose().cast<double>();
-    const Eigen::Array3d cell = (point - extent.low) / leaf;
+    const Eigen::Array3d cell = (point - extent.low) * per_leaf;
     members[i] = {
         (static_cast<Number>(cell.z()) * lines + static_cast<Number>(cell.y())) * columns +
             static_cast<Number>(cell.x()),
@@ -88,12 +88,12 @@ PointMatrix Voxels::centroids(const PointMatrix& points) const {
 Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
                       float leaf) {
   if (rows.empty()) return {{}, {0}};
-  const auto edge = static_cast<double>(leaf);
+  const double per_leaf = 1 / static_cast<double>(leaf);
   const Extent extent = extent_of(points, rows);
-  const Eigen::Array3d counts = ((extent.high - extent.low) / edge).floor() + 1;
-  if (!(counts.prod() < 1e19)) throw_too_large(extent.largest(), edge);
-  return counts.prod() < 4e9 ? grouped<std::uint32_t>(points, rows, extent, counts, edge)
-                             : grouped<std::uint64_t>(points, rows, extent, counts, edge);
+  const Eigen::Array3d counts = ((extent.high - extent.low) * per_leaf).floor() + 1;
+  if (!(counts.prod() < 1e19)) throw_too_large(extent.largest(), static_cast<double>(leaf));
+  return counts.prod() < 4e9 ? grouped<std::uint32_t>(points, rows, extent, counts, per_leaf)
+                             : grouped<std::uint64_t>(points, rows, extent, counts, per_leaf);
 }
 
 Voxels group_by_voxel(const PointMatrix& points, float leaf) {
