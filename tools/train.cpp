@@ -18,7 +18,7 @@ int train_command(const TrainCommand& command) {
   for (const auto& model : library->models)
     std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()
               << " points, " << model->features.points.rows() << " features, "
-              << model->near_symmetries.motions.size() << " near symmetries, diagonal "
+              << model->near_symmetries.items.size() << " near symmetries, diagonal "
               << model->diagonal << " m\n";
   std::cout << "resolution " << library->scale.resolution << " m; wrote " << command.out << "\n";
   return 0;

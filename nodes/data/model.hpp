@@ -12,9 +12,17 @@
 
 namespace posevote {
 
-/// Motions in the model's own frame that carry it nearly onto itself (find_near_symmetries).
+/// A motion in the model's own frame that carries it nearly onto itself. Where the two differ are
+/// points of the model's cloud.
+struct NearSymmetry {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  std::vector<std::uint32_t> carried_off;  ///< those that the motion carries off the surface
+  std::vector<std::uint32_t> uncovered;    ///< those onto which it carries nothing
+};
+
+/// What find_near_symmetries finds.
 struct NearSymmetries {
-  std::vector<Eigen::Isometry3d> motions;
+  std::vector<NearSymmetry> items;
 };
 
 class DescriptorIndex;  // nodes/match/descriptor_index.hpp

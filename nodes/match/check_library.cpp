@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/match/check_library.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -63,9 +64,14 @@ void check_model(const Model& model) {
   check_features(model.features);
   require_inside(model.cloud.points, model, "points");
   require_inside(model.features.points, model, "feature points");
-  for (const Eigen::Isometry3d& motion : model.near_symmetries.motions)
-    require(motion.matrix().allFinite() && motion.linear().isUnitary(1e-6),
+  for (const NearSymmetry& one : model.near_symmetries.items) {
+    require(one.motion.matrix().allFinite() && one.motion.linear().isUnitary(1e-6),
             "a near symmetry is no motion");
+    for (const auto* numbers : {&one.carried_off, &one.uncovered})
+      require(std::all_of(numbers->begin(), numbers->end(),
+                          [&](std::uint32_t i) { return i < model.cloud.points.rows(); }),
+              "a near symmetry names a point that is not there");
+  }
   require_length(model.outline.reach, "the outline's reach");
   require_count(static_cast<Eigen::Index>(model.outline.ends.size()), model.cloud.points.rows(),
                 "points in the outline");

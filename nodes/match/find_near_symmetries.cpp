@@ -115,6 +115,14 @@ class Judge {
     });
     return on >= kSymmetric;
   }
+  /// The points of the cloud that a motion carries off the surface.
+  std::vector<std::uint32_t> carried_off(const Cloud& cloud, const Isometry3d& motion) const {
+    std::vector<std::uint32_t> off;
+    for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
+      if (!surface_.nearest_left(posed_point(cloud, i, motion.cast<float>()).point, fine_))
+        off.push_back(static_cast<std::uint32_t>(i));
+    return off;
+  }
 
  private:
   Cloud sample_;
@@ -135,13 +143,16 @@ NearSymmetries find_near_symmetries(const Cloud& cloud, const Scale& scale, cons
   sort_by_overlap(motions);
   NearSymmetries found;
   for (const Rated& one : motions) {
-    if (one.overlap < params.least || found.motions.size() == static_cast<std::size_t>(params.most))
+    if (one.overlap < params.least || found.items.size() == static_cast<std::size_t>(params.most))
       break;
     const bool known =
         judge.same(Isometry3d::Identity(), one.motion) ||
-        std::any_of(found.motions.begin(), found.motions.end(),
-                    [&](const Isometry3d& other) { return judge.same(other, one.motion); });
-    if (!known) found.motions.push_back(one.motion);
+        std::any_of(found.items.begin(), found.items.end(), [&](const NearSymmetry& other) {
+          return judge.same(other.motion, one.motion);
+        });
+    if (!known)
+      found.items.push_back({one.motion, judge.carried_off(cloud, one.motion),
+                             judge.carried_off(cloud, one.motion.inverse())});
   }
   return found;
 }

@@ -17,6 +17,11 @@ void put_cloud(ByteWriter& out, const Cloud& cloud) {
   out.put(std::uint64_t{cloud.dropped});
 }
 
+void put_numbers(ByteWriter& out, const std::vector<std::uint32_t>& numbers) {
+  out.put(std::uint64_t{numbers.size()});
+  for (const std::uint32_t number : numbers) out.put(number);
+}
+
 void put_model(ByteWriter& out, const Model& model) {
   out.put(model.name);
   out.put(std::int32_t{model.obj_id});
@@ -24,16 +29,25 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put_matrix(model.features.points);
   out.put_matrix(model.features.normals);
   out.put_matrix(model.features.descriptors);
-  out.put(std::uint64_t{model.features.blocks.size()});
-  for (const std::uint32_t width : model.features.blocks) out.put(width);
+  put_numbers(out, model.features.blocks);
   out.put_matrix(model.center);
   out.put(model.diagonal);
-  out.put(std::uint64_t{model.near_symmetries.motions.size()});
-  for (const Eigen::Isometry3d& motion : model.near_symmetries.motions)
-    out.put_matrix(Eigen::Matrix4d(motion.matrix()));
+  out.put(std::uint64_t{model.near_symmetries.items.size()});
+  for (const NearSymmetry& one : model.near_symmetries.items) {
+    out.put_matrix(Eigen::Matrix4d(one.motion.matrix()));
+    put_numbers(out, one.carried_off);
+    put_numbers(out, one.uncovered);
+  }
   out.put(model.outline.reach);
   out.put(std::string_view(reinterpret_cast<const char*>(model.outline.ends.data()),
                            model.outline.ends.size()));
+}
+
+std::vector<std::uint32_t> get_numbers(ByteReader& in) {
+  std::vector<std::uint32_t> numbers;
+  const auto count = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i) numbers.push_back(in.get<std::uint32_t>());
+  return numbers;
 }
 
 Eigen::Vector3f get_vector(ByteReader& in) {
@@ -67,14 +81,16 @@ Model get_model(ByteReader& in) {
   model.features.points = in.get_matrix<PointMatrix>();
   model.features.normals = in.get_matrix<PointMatrix>();
   model.features.descriptors = in.get_matrix<DescriptorMatrix>();
-  const auto blocks = in.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < blocks; ++i)
-    model.features.blocks.push_back(in.get<std::uint32_t>());
+  model.features.blocks = get_numbers(in);
   model.center = get_vector(in);
   model.diagonal = in.get<float>();
-  const auto motions = in.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < motions; ++i)
-    model.near_symmetries.motions.push_back(get_motion(in));
+  const auto near_symmetries = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < near_symmetries; ++i) {
+    NearSymmetry& one = model.near_symmetries.items.emplace_back();
+    one.motion = get_motion(in);
+    one.carried_off = get_numbers(in);
+    one.uncovered = get_numbers(in);
+  }
   model.outline.reach = in.get<float>();
   const std::string_view ends = in.get_text();
   model.outline.ends.assign(ends.begin(), ends.end());

@@ -12,9 +12,10 @@
 namespace posevote {
 namespace {
 
-constexpr double kConvincing = 0.1;  // inlier fraction x clues at which evidence is 63 %
-constexpr double kOutline = 3;       // weight of the outline beside relief
-constexpr double kFewEnds = 0.02;    // of the looks around: a shorter outline says less
+constexpr double kConvincing = 0.1;   // inlier fraction x clues at which evidence is 63 %
+constexpr double kOutline = 3;        // weight of the outline beside relief
+constexpr double kHalfAgainst = 0.5;  // another surface, or none, where one should be
+constexpr double kFewEnds = 0.02;     // of the looks around: a shorter outline says less
 
 enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
 
@@ -52,6 +53,21 @@ void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
     }
     ++judged.ends;
   });
+}
+
+/// What a point says for a pose, or, below 0, against it.
+double balance_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kSupported:
+      return 1;
+    case Verdict::kContradicted:
+      return -1;
+    case Verdict::kMismatched:
+    case Verdict::kUnseen:
+      return -kHalfAgainst;
+    default:
+      return 0;
+  }
 }
 
 Fit count(const std::vector<Judged>& points) {
@@ -97,6 +113,20 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& s
   return count(points);
 }
 
+Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
+                      const ScanSurface& scan, const RangeView& view,
+                      const Eigen::Isometry3d& T_scene_model, float tolerance) {
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  Evidence evidence;
+  for (const std::uint32_t i : points) {
+    const OrientedPoint p = posed_point(model, i, T);
+    const Verdict verdict = judge(p, scan, view, scan.viewpoint(), tolerance).verdict;
+    evidence.balance += balance_of(verdict);
+    evidence.sides += balance_of(verdict) != 0;
+  }
+  return evidence;
+}
+
 // score = agreement x evidence x continuity.
 //
 // Agreement is the share of supporters among the points that take a side. Points that are hidden,
@@ -119,7 +149,7 @@ double fit_score(const Fit& fit) {
   if (fit.supported == 0) return 0;
   const auto supported = static_cast<double>(fit.supported);
   const double against = static_cast<double>(fit.contradicted) +
-                         0.5 * static_cast<double>(fit.mismatched + fit.unseen);
+                         kHalfAgainst * static_cast<double>(fit.mismatched + fit.unseen);
   const double agreement = supported / (supported + against);
   const double looks = kOutlineDirections * supported;
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);

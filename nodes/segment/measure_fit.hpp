@@ -16,6 +16,8 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/segment/outline.hpp"
@@ -40,6 +42,17 @@ struct Fit {
 Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& scan,
                 const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
                 Eigen::Index samples = 0);
+
+/// What some points say of a pose.
+struct Evidence {
+  double balance = 0;     ///< those for it less those against it
+  std::size_t sides = 0;  ///< those that take a side
+};
+
+/// By the model's points with these numbers.
+Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
+                      const ScanSurface& scan, const RangeView& view,
+                      const Eigen::Isometry3d& T_scene_model, float tolerance);
 
 /// In [0, 1]: how much of what should be visible is there, times how much there is to go by; the
 /// .cpp gives the reasons.

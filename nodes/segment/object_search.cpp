@@ -19,6 +19,9 @@ constexpr Eigen::Index kLook = 1000;     // ... one of those that may be a final
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 constexpr double kHopeless = 0.25;       // of what is needed: ICP seldom raises a score fourfold
 
+constexpr double kTelling =
+    2;  // standard deviations by which one of two poses that look alike leads
+
 // A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
 // votes and fit are evidence of their own, but true instances differ much in how much of them is
 // seen.
@@ -138,21 +141,45 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
 }
 
 /// The best of a pose and those that look nearly like it. They share the mode that proposed it.
+/// Where they differ decides; where that says nothing, their ranks.
 Candidate ObjectSearch::best_alike(const Candidate& candidate) const {
-  Candidates alike(model_.near_symmetries.motions.size(), candidate);
+  const std::vector<NearSymmetry>& near = model_.near_symmetries.items;
+  Candidates alike(near.size(), candidate);
   graph::parallel_for(alike.size(), 1, [&](std::size_t i) {
     alike[i].is_refined = false;
-    alike[i].T_scene_model = candidate.T_scene_model * model_.near_symmetries.motions[i];
+    alike[i].near_symmetry = i;
+    alike[i].T_scene_model = candidate.T_scene_model * near[i].motion;
     alike[i].fit = measure(alike[i].T_scene_model, kLook);
     set_score(alike[i]);
   });
-  alike.push_back(candidate);
   sort_by_rank(alike.begin(), alike.end());
   alike.erase(refine_best(alike), alike.end());
   Candidate best = candidate;
-  for (const Candidate& other : alike)
-    if (other.rank > best.rank && is_clear(center_of(other))) best = other;
+  double most = kTelling;
+  for (const Candidate& other : alike) {
+    const double lead = lead_over(candidate, other);
+    const bool is_better = most > kTelling             ? lead > most
+                           : std::abs(lead) > kTelling ? lead > 0
+                                                       : other.rank > best.rank;
+    if (!is_better || !is_clear(center_of(other))) continue;
+    best = other;
+    most = std::max(most, lead);
+  }
   return best;
+}
+
+/// How much more the scan speaks for a pose than for the one that a near symmetry made it of, where
+/// they differ, in standard deviations.
+double ObjectSearch::lead_over(const Candidate& origin, const Candidate& other) const {
+  const auto weigh = [&](const std::vector<std::uint32_t>& points, const Candidate& candidate) {
+    return weigh_points(model_.cloud, points, scan_.surface, scan_.view, candidate.T_scene_model,
+                        params_.tolerance);
+  };
+  const NearSymmetry& symmetry = model_.near_symmetries.items[other.near_symmetry];
+  const Evidence for_other = weigh(symmetry.carried_off, other);
+  const Evidence for_origin = weigh(symmetry.uncovered, origin);
+  const auto sides = static_cast<double>(for_other.sides + for_origin.sides);
+  return sides > 0 ? (for_other.balance - for_origin.balance) / std::sqrt(sides) : 0;
 }
 
 /// ICP on a pose that was looked at, kept where it keeps the support. Done once for a mode: what is

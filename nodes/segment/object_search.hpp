@@ -42,9 +42,10 @@ struct Candidate {
   PoseMode mode;  ///< before ICP
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
-  double score = 0;         ///< of the fit alone
-  double consensus = 1;     ///< in [0, 1], of votes, for the best of a search
-  bool is_refined = false;  ///< whether the pose is after ICP
+  double score = 0;               ///< of the fit alone
+  double consensus = 1;           ///< in [0, 1], of votes, for the best of a search
+  bool is_refined = false;        ///< whether the pose is after ICP
+  std::size_t near_symmetry = 0;  ///< of the model, where it is the pose's origin
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
   double confidence() const { return score * consensus; }  ///< that of the detection
 };
@@ -84,6 +85,7 @@ class ObjectSearch {
   void refine(Candidate& candidate) const;
   std::vector<Candidate>::iterator refine_best(std::vector<Candidate>& sorted) const;
   Candidate best_alike(const Candidate& candidate) const;
+  double lead_over(const Candidate& origin, const Candidate& other) const;
   void set_score(Candidate& candidate) const;
   double consensus(const Candidate& candidate) const;
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const;

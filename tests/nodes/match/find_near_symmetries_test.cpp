@@ -46,37 +46,43 @@ Cloud carton(bool knob) {
   return cloud;
 }
 
-std::vector<Eigen::Isometry3d> motions_of(const Cloud& cloud,
-                                          const std::map<std::string, std::string>& values = {}) {
-  return run_node<NearSymmetries>("find_near_symmetries", values, cloud, Scale{kStep}).motions;
+std::vector<NearSymmetry> symmetries_of(const Cloud& cloud,
+                                        const std::map<std::string, std::string>& values = {}) {
+  return run_node<NearSymmetries>("find_near_symmetries", values, cloud, Scale{kStep}).items;
 }
 
 }  // namespace
 
 TEST_CASE("a carton with a knob is nearly itself after three half turns", "[match]") {
-  const auto motions = motions_of(carton(true));
-  REQUIRE(motions.size() == 3);
-  for (const Eigen::Isometry3d& motion : motions) {
+  const Cloud cloud = carton(true);
+  const auto symmetries = symmetries_of(cloud);
+  REQUIRE(symmetries.size() == 3);
+  for (const auto& [motion, carried_off, uncovered] : symmetries) {
     const Eigen::AngleAxisd turn(motion.linear());
     CHECK(turn.angle() == Approx(std::numbers::pi).margin(0.02));
     CHECK(turn.axis().cwiseAbs().maxCoeff() > 0.999);
     // The box comes to lie on itself, not the bounding box, which the knob makes longer.
     CHECK((motion * Eigen::Vector3d(0, 0, 0)).norm() < 0.002);
+    // They differ by the knob: most of it is carried away, and nothing takes its place.
+    for (const auto* differing : {&carried_off, &uncovered}) {
+      CHECK(differing->size() > 100);
+      for (const std::uint32_t i : *differing) CHECK(cloud.points(i, 2) > 0.075F);
+    }
   }
 }
 
 TEST_CASE("what no one can tell apart is no near symmetry", "[match]") {
-  CHECK(motions_of(carton(false)).empty());
+  CHECK(symmetries_of(carton(false)).empty());
 }
 
 TEST_CASE("a free-form body has none", "[match]") {
   Cloud body = bumpy_cloud(1, 0.002F);
-  CHECK(run_node<NearSymmetries>("find_near_symmetries", {}, body, Scale{0.001F}).motions.empty());
+  CHECK(run_node<NearSymmetries>("find_near_symmetries", {}, body, Scale{0.001F}).items.empty());
 }
 
 TEST_CASE("near symmetries can be limited, and searched for in nothing", "[match]") {
-  CHECK(motions_of(carton(true), {{"most", "1"}}).size() == 1);
-  CHECK(motions_of(carton(true), {{"most", "0"}}).empty());
-  CHECK(motions_of(carton(true), {{"least", "0.99"}}).empty());
-  CHECK(motions_of(Cloud{}).empty());
+  CHECK(symmetries_of(carton(true), {{"most", "1"}}).size() == 1);
+  CHECK(symmetries_of(carton(true), {{"most", "0"}}).empty());
+  CHECK(symmetries_of(carton(true), {{"least", "0.99"}}).empty());
+  CHECK(symmetries_of(Cloud{}).empty());
 }

@@ -45,7 +45,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{4});
+  out.put(std::uint32_t{5});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -85,9 +85,11 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   CHECK(loaded->models[2]->center == library.models[2]->center);
   CHECK(loaded->models[2]->diagonal == library.models[2]->diagonal);
   CHECK(loaded->models[2]->outline.ends == library.models[2]->outline.ends);
-  REQUIRE(loaded->models[2]->near_symmetries.motions.size() == 1);
-  CHECK(loaded->models[2]->near_symmetries.motions[0].matrix() ==
-        library.models[2]->near_symmetries.motions[0].matrix());
+  REQUIRE(loaded->models[2]->near_symmetries.items.size() == 1);
+  const NearSymmetry& symmetry = loaded->models[2]->near_symmetries.items[0];
+  CHECK(symmetry.motion.matrix() == library.models[2]->near_symmetries.items[0].motion.matrix());
+  CHECK(symmetry.carried_off == std::vector<std::uint32_t>{0, 2});
+  CHECK(symmetry.uncovered == std::vector<std::uint32_t>{1});
   const DescriptorMatrix queries = features_at({3, 33, 77}).descriptors;
   const auto before = library.index->nearest_two(queries);
   const auto after = loaded->index->nearest_two(queries);
@@ -215,11 +217,12 @@ TEST_CASE("fused features come back with their blocks", "[match]") {
   std::string payload = encode_library(library);
   CHECK(decode_library(payload).models[1]->features.blocks == Blocks{1, 2});
   const std::uint32_t width =
-      3;  // of the last model's last block, before centre, diagonal, motions and outline
+      3;  // of the last model's last block, before centre, diagonal, near symmetries and outline
   const std::size_t center = 2 * sizeof(std::uint64_t) + 3 * sizeof(float);
   const std::size_t outline = sizeof(float) + sizeof(std::uint64_t) + 3;
+  const std::size_t points = 2 * sizeof(std::uint64_t) + 3 * sizeof(std::uint32_t);
   const std::size_t motions =
-      sizeof(std::uint64_t) + 2 * sizeof(std::uint64_t) + 16 * sizeof(double);
+      sizeof(std::uint64_t) + 2 * sizeof(std::uint64_t) + 16 * sizeof(double) + points;
   std::memcpy(&payload[payload.size() - outline - motions - sizeof(float) - center - sizeof width],
               &width, sizeof width);
   CHECK_THROWS_WITH(decode_library(payload), Catch::Contains("damaged: the features of 'm1'"));
@@ -236,7 +239,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 4"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 5"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

@@ -50,8 +50,8 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
     meshes.slots.push_back(std::make_shared<const Cloud>(cloud));
     clouds.slots.push_back(std::make_shared<const Cloud>(cloud));
     features.slots.push_back(std::make_shared<const FeatureSet>(features_at(values[i])));
-    near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(
-        NearSymmetries{{Eigen::Isometry3d(Eigen::AngleAxisd(id, Eigen::Vector3d::UnitZ()))}}));
+    near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(NearSymmetries{
+        {{Eigen::Isometry3d(Eigen::AngleAxisd(id, Eigen::Vector3d::UnitZ())), {0, 2}, {1}}}}));
     outlines.slots.push_back(std::make_shared<const Outline>(Outline{0.01F, {1, 2, 4}}));
   }
   return run_node<ModelLibrary>("assemble_library", params, files, meshes, clouds, features,

@@ -72,7 +72,7 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
   };
   const auto alone = found_with({});
   CHECK((alone.empty() || shift(alone[0], kLeft) > 0.002 || alone[0].score < 0.8));
-  const auto found = found_with({{turned}});
+  const auto found = found_with({{{turned, {}, {}}}});
   REQUIRE(found.size() == 1);
   CHECK(shift(found[0], kLeft) < 0.002);
   CHECK(found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02));
