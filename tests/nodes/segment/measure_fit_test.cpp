@@ -2,6 +2,7 @@
 #include "nodes/segment/measure_fit.hpp"
 
 #include <catch2/catch.hpp>
+#include <numeric>
 
 #include "tests/support/bumpy_scene.hpp"
 
@@ -31,6 +32,27 @@ TEST_CASE("at the true pose nearly all that faces the sensor is supported", "[se
   CHECK(fit.contradicted == 0);
   CHECK(fit.rmse < 0.1 * kResolution);
   CHECK(fit_score(fit) > 0.9);
+}
+
+TEST_CASE("named points weigh what they say of a pose", "[segment]") {
+  const Cloud& model = bumpy_model(1)->cloud;
+  const Cloud scan = scan_of({kBody});
+  const RangeView view(scan, kResolution);
+  const ScanSurface surface(scan, view.usable(), kTolerance);
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(model.points.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  const auto weigh = [&](const Eigen::Isometry3d& T, const std::vector<std::uint32_t>& points) {
+    return weigh_points(model, points, surface, view, T, kTolerance);
+  };
+  for (const Eigen::Isometry3d& T : {kBody.T_scene_model, pose(0.03, 0, 0.8, 0)}) {
+    const Fit fit = fit_of(model, scan, T);
+    const Evidence evidence = weigh(T, all);
+    const auto count = [](std::size_t n) { return static_cast<double>(n); };
+    CHECK(evidence.sides == fit.facing - fit.hidden);
+    CHECK(evidence.balance == count(fit.supported) - count(fit.contradicted) -
+                                  0.5 * count(fit.mismatched + fit.unseen));
+  }
+  CHECK(weigh(kBody.T_scene_model, {}).sides == 0);
 }
 
 TEST_CASE("a body before what was measured is contradicted", "[segment]") {

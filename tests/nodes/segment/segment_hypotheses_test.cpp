@@ -3,6 +3,7 @@
 
 #include "nodes/data/detections.hpp"
 #include "nodes/data/hypotheses.hpp"
+#include "nodes/segment/measure_fit.hpp"
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
@@ -77,6 +78,37 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
   CHECK(shift(found[0], kLeft) < 0.002);
   CHECK(found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02));
   CHECK(found[0].density == 9);  // of the mode that it came from
+}
+
+TEST_CASE("of poses that look alike, the points where they differ decide", "[segment]") {
+  const Cloud scan = scan_of({kLeft});
+  const RangeView view(scan, kResolution);
+  const ScanSurface surface(scan, view.usable(), 2 * kResolution);
+  auto model = std::make_shared<Model>(*bumpy_model(1));
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Isometry3d wrong = kLeft.T_scene_model * turned.inverse();
+  std::vector<std::uint32_t> for_wrong, for_right;
+  for (std::uint32_t i = 0; i < model->cloud.points.rows(); ++i) {
+    const auto says = [&](const Eigen::Isometry3d& T) {
+      return weigh_points(model->cloud, {i}, surface, view, T, 2 * kResolution).balance;
+    };
+    if (says(wrong) > 0) for_wrong.push_back(i);
+    if (says(kLeft.T_scene_model) > 0) for_right.push_back(i);
+  }
+  REQUIRE(for_wrong.size() > 100);
+  const auto is_found = [&](const NearSymmetry& near_symmetry) {
+    model->near_symmetries = {{near_symmetry}};
+    PerObject<Hypotheses> objects;
+    objects.slots = {std::make_shared<Hypotheses>(Hypotheses{model, {{wrong, 9}}})};
+    const auto found = run_node<Detections>("segment_hypotheses", {{"refine", "false"}}, objects,
+                                            features_of(scan), scan, Scale{kResolution});
+    return found.items.size() == 1 &&
+           found.items[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
+  };
+  CHECK(is_found({turned, {}, {}}));  // by rank
+  CHECK(is_found({turned, for_right, {}}));
+  CHECK_FALSE(is_found({turned, {}, for_wrong}));
 }
 
 TEST_CASE("segment_hypotheses of nothing is nothing", "[segment]") {
