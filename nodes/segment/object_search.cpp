@@ -126,15 +126,20 @@ Candidates::iterator ObjectSearch::refine_best(Candidates& sorted) const {
   return sorted.begin() + static_cast<std::ptrdiff_t>(count);
 }
 
-/// The best of the finalists after ICP. Those that ICP carries onto an instance that is found
-/// already leave the pool.
+/// The best of the finalists after ICP: what cannot reach the threshold keeps nobody from it. Those
+/// that ICP carries onto an instance that is found already leave the pool.
 std::optional<Candidate> ObjectSearch::best_finalist() {
   while (!pool_.empty()) {
     const Candidates::iterator end = refine_best(pool_);
     if (end == pool_.begin()) break;
     sort_by_rank(pool_.begin(), end);
-    for (auto candidate = pool_.begin(); candidate != end; ++candidate)
-      if (is_clear(center_of(*candidate))) return best_alike(*candidate);
+    bool is_any_clear = false;
+    for (auto candidate = pool_.begin(); candidate != end; ++candidate) {
+      if (!is_clear(center_of(*candidate))) continue;
+      if (candidate->score >= params_.min_score) return best_alike(*candidate);
+      is_any_clear = true;
+    }
+    if (is_any_clear) break;
     pool_.erase(pool_.begin(), end);
   }
   return std::nullopt;
