@@ -8,6 +8,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/prepare/cells.hpp"
+#include "nodes/prepare/image_tile.hpp"
 #include "nodes/prepare/plane_fit.hpp"
 
 namespace posevote {
@@ -18,59 +19,13 @@ constexpr float kMostSpacings = 12;    // in a radius: more than a plane needs
 constexpr float kTogether = 1.0F / 3;  // of the radius, between pixels that share a plane
 // Of a window, on average: near points before a far ground have large ones.
 constexpr float kMostPixels = 4 * (2 * kMostSpacings) * (2 * kMostSpacings);
-
-// On smooth ground only the corners of tiles get planes of their own, whose normals are mixed
-// between them. That halves the time, and moves no more than noise does: a window is three tiles
-// wide.
-constexpr int kTile = 4;              // pixels
-constexpr float kSameNormal = 0.98F;  // cosine (11 deg) between the corners of smooth ground
-constexpr float kFlush = 0.45F;       // of the radius, of the ground off its corners' planes
-constexpr float kFarthest = 4;        // of the radius, between corners
+// On smooth ground only the corners of tiles get planes of their own (image_tile.hpp): half the
+// time, and no more off than noise makes it, for a window is three tiles wide.
+constexpr int kTile = 4;  // pixels
 
 /// A point of the cloud and its pixel.
 struct Place {
   std::uint32_t point, pixel;
-};
-
-/// The ground between four points with normals: upper left and right, lower left and right.
-class Tile {
- public:
-  struct Corner {
-    Eigen::Vector3f point = Eigen::Vector3f::Zero();
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< toward the sensor; 0: none
-  };
-
-  Tile(const std::array<Corner, 4>& corners, float radius) : corners_(corners), radius_(radius) {}
-
-  bool is_smooth() const {
-    for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < 4; ++b)
-        if (!(corners_[a].normal.dot(corners_[b].normal) >= kSameNormal &&
-              (corners_[a].point - corners_[b].point).norm() <= kFarthest * radius_ &&
-              is_flush(corners_[a].point, corners_[b])))
-          return false;
-    return true;
-  }
-
-  /// Where x and y go from 0 to 1.
-  Corner at(float x, float y) const {
-    const std::array<float, 4> weights{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
-    Corner mean;
-    for (std::size_t i = 0; i < 4; ++i) {
-      mean.point += weights[i] * corners_[i].point;
-      mean.normal += weights[i] * corners_[i].normal;
-    }
-    mean.normal.normalize();
-    return mean;
-  }
-
-  bool is_flush(const Eigen::Vector3f& point, const Corner& with) const {
-    return std::abs((point - with.point).dot(with.normal)) <= kFlush * radius_;
-  }
-
- private:
-  std::array<Corner, 4> corners_;
-  float radius_;
 };
 
 /// A depth image as an array of points.

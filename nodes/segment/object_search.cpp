@@ -19,8 +19,8 @@ constexpr Eigen::Index kLook = 1000;     // ... one of those that may be a final
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 constexpr double kHopeless = 0.25;       // of what is needed: ICP seldom raises a score fourfold
 
-constexpr double kTelling =
-    2;  // standard deviations by which one of two poses that look alike leads
+// Standard deviations by which one of two poses that look alike must lead where they differ.
+constexpr double kTelling = 2;
 
 // A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
 // votes and fit are evidence of their own, but true instances differ much in how much of them is
@@ -133,13 +133,13 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
     const Candidates::iterator end = refine_best(pool_);
     if (end == pool_.begin()) break;
     sort_by_rank(pool_.begin(), end);
-    bool is_any_clear = false;
+    const Candidate* first = nullptr;
     for (auto candidate = pool_.begin(); candidate != end; ++candidate) {
       if (!is_clear(center_of(*candidate))) continue;
       if (candidate->score >= params_.min_score) return best_alike(*candidate);
-      is_any_clear = true;
+      if (!first) first = &*candidate;
     }
-    if (is_any_clear) break;
+    if (first) return best_alike(*first);  // which may reach it
     pool_.erase(pool_.begin(), end);
   }
   return std::nullopt;
