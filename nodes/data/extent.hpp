@@ -12,8 +12,11 @@ namespace posevote {
 /// Diagonal of the bounding box of a model's points [m]. Throws std::runtime_error where it is not
 /// finite and above 0.
 inline double model_diagonal(const PointMatrix& points) {
-  const double diagonal =
-      points.rows() == 0 ? 0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  Eigen::RowVector3d extent = Eigen::RowVector3d::Zero();
+  if (points.rows() > 0)
+    extent =
+        points.colwise().maxCoeff().cast<double>() - points.colwise().minCoeff().cast<double>();
+  const double diagonal = extent.norm();
   if (!(diagonal > 0) || !std::isfinite(diagonal))
     throw std::runtime_error("has " + std::to_string(points.rows()) +
                              " points and no extent: expected a surface");

@@ -6,7 +6,9 @@
 //
 // Rotations about the centre, spread evenly over SO(3) (Alexa, "Super-Fibonacci Spirals", CVPR
 // 2022), are rated by the share of points that come to lie near a point whose normal agrees; the
-// best are refined by ICP and rated anew, finely. Cost: some 600 000 searches for a neighbour.
+// best are refined by ICP and rated anew, finely. Of each motion that is kept it notes the points
+// of the cloud by which the two differ; so the cloud must be the one that the model is made of.
+// Cost: some 600 000 searches for a neighbour, and two for each motion and point.
 //
 //   find_near_symmetries: {in: [cloud, scale], out: near_symmetries, least: 0.6}
 #include <algorithm>
@@ -117,9 +119,10 @@ class Judge {
   }
   /// The points of the cloud that a motion carries off the surface.
   std::vector<std::uint32_t> carried_off(const Cloud& cloud, const Isometry3d& motion) const {
+    const Eigen::Isometry3f T = motion.cast<float>();
     std::vector<std::uint32_t> off;
     for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
-      if (!surface_.nearest_left(posed_point(cloud, i, motion.cast<float>()).point, fine_))
+      if (!surface_.nearest_left(posed_point(cloud, i, T).point, fine_))
         off.push_back(static_cast<std::uint32_t>(i));
     return off;
   }
@@ -159,7 +162,7 @@ NearSymmetries find_near_symmetries(const Cloud& cloud, const Scale& scale, cons
 
 const auto registered =
     graph::register_node("find_near_symmetries", find_near_symmetries,
-                         "Motions that carry a model nearly onto itself.")
+                         "Motions that carry a model nearly onto itself, and where the two differ.")
         .input("cloud")
         .input("scale")
         .output("near_symmetries")

@@ -93,18 +93,20 @@ class PixelPlanes {
   PointMatrix normals(float radius, int min_neighbours) const {
     PointMatrix normals = PointMatrix::Zero(Eigen::Index{width_} * height_, 3);
     const int columns = (width_ - 1) / kTile + 1, rows = (height_ - 1) / kTile + 1;
-    const std::vector<Tile::Corner> corners = tile_corners(columns, rows, radius, min_neighbours);
+    const std::vector<Tile::Patch> corners = tile_corners(columns, rows, radius, min_neighbours);
     graph::parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row) {
+      const int down = std::min(kTile, height_ - 1 - kTile * static_cast<int>(row));
       for (int column = 0; column < columns; ++column) {
         const auto upper =
             corners.begin() + static_cast<std::ptrdiff_t>(row) * (columns + 1) + column;
         const auto lower = upper + columns + 1;
         const Tile tile({upper[0], upper[1], lower[0], lower[1]}, radius);
         const bool smooth = tile.is_smooth();
+        const int across = std::min(kTile, width_ - 1 - kTile * column);  // at the border less
         for (int dv = 0; dv < kTile; dv += 2)
           for (int du = 0; du < kTile; du += 2) {
             const Block block = block_at(kTile * column + du, kTile * static_cast<int>(row) + dv);
-            const Tile::Corner mean = tile.at(middle_of(du), middle_of(dv));
+            const Tile::Patch mean = tile.at(middle_of(du, across), middle_of(dv, down));
             if (!(smooth && take_normal(block, tile, mean, normals)))
               fit_block(block, radius, min_neighbours, normals);
           }
@@ -159,9 +161,9 @@ class PixelPlanes {
 
   /// The corners of all tiles, a row and a column more than tiles; those behind the image's border
   /// are on it.
-  std::vector<Tile::Corner> tile_corners(int columns, int rows, float radius,
-                                         int min_neighbours) const {
-    std::vector<Tile::Corner> corners(static_cast<std::size_t>((columns + 1) * (rows + 1)));
+  std::vector<Tile::Patch> tile_corners(int columns, int rows, float radius,
+                                        int min_neighbours) const {
+    std::vector<Tile::Patch> corners(static_cast<std::size_t>((columns + 1) * (rows + 1)));
     graph::parallel_for(corners.size(), 64, [&](std::size_t i) {
       const int number = static_cast<int>(i);
       const int column = number % (columns + 1), row = number / (columns + 1);
@@ -176,8 +178,11 @@ class PixelPlanes {
     return corners;
   }
 
-  /// Of a block's two pixels, in a tile.
-  static float middle_of(int first) { return (static_cast<float>(first) + 0.5F) / kTile; }
+  /// Of a block's two pixels, in a tile of that size; 0 to 1.
+  static float middle_of(int first, int size) {
+    return std::min(1.0F,
+                    (static_cast<float>(first) + 0.5F) / static_cast<float>(std::max(1, size)));
+  }
 
   /// The pixels with a measurement of 2 x 2.
   struct Block {
@@ -195,7 +200,7 @@ class PixelPlanes {
   }
 
   /// False where the block is off the tile's ground.
-  bool take_normal(const Block& block, const Tile& tile, const Tile::Corner& ground,
+  bool take_normal(const Block& block, const Tile& tile, const Tile::Patch& ground,
                    PointMatrix& normals) const {
     for (std::size_t i = 0; i < block.count; ++i)
       if (!tile.is_flush(point(block.pixels[i]), ground)) return false;

@@ -13,15 +13,15 @@ namespace posevote {
 /// The ground between four points with normals: upper left and right, lower left and right.
 class Tile {
  public:
-  struct Corner {
+  struct Patch {
     Eigen::Vector3f point = Eigen::Vector3f::Zero();
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< toward the sensor; 0: none
   };
 
   /// `radius`: of the planes that the normals are of [m].
-  Tile(const std::array<Corner, 4>& corners, float radius) : corners_(corners), radius_(radius) {}
+  Tile(const std::array<Patch, 4>& corners, float radius) : corners_(corners), radius_(radius) {}
 
-  /// Whether the normals are alike and the corners on each other's planes.
+  /// Whether the corners are near each other, their normals alike, and they on each other's planes.
   bool is_smooth() const {
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)
@@ -33,9 +33,9 @@ class Tile {
   }
 
   /// Where x and y go from 0 to 1.
-  Corner at(float x, float y) const {
+  Patch at(float x, float y) const {
     const std::array<float, 4> weights{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
-    Corner mean;
+    Patch mean;
     for (std::size_t i = 0; i < 4; ++i) {
       mean.point += weights[i] * corners_[i].point;
       mean.normal += weights[i] * corners_[i].normal;
@@ -44,8 +44,8 @@ class Tile {
     return mean;
   }
 
-  /// Whether a point is about on the plane of a corner.
-  bool is_flush(const Eigen::Vector3f& point, const Corner& with) const {
+  /// Whether a point is about on the plane of a patch.
+  bool is_flush(const Eigen::Vector3f& point, const Patch& with) const {
     return std::abs((point - with.point).dot(with.normal)) <= kFlush * radius_;
   }
 
@@ -54,7 +54,7 @@ class Tile {
   static constexpr float kFlush = 0.45F;       // of the radius, off a plane
   static constexpr float kFarthest = 4;        // of the radius, between corners
 
-  std::array<Corner, 4> corners_;
+  std::array<Patch, 4> corners_;
   float radius_;
 };
 

@@ -20,12 +20,11 @@ struct Plane {
 /// points on a line, leave it open.
 Plane plane_of(const PlaneMoments& moments, float radius, int min_neighbours);
 
-/// Places at which something is measured that is wanted of all of them, at least, if there are
-/// more.
+/// At how many of many places something is measured, at least.
 constexpr std::size_t kSample = 1000;
 
-/// Some kSample numbers, fewer than twice as many, below `count`, spread evenly but by chance, so
-/// that they follow no columns of an image: for which of many places something is to be measured.
+/// All numbers below `count`, or of many at least kSample and fewer than twice as many, spread
+/// evenly but by chance, so that they follow no columns of an image.
 std::vector<std::size_t> sample_of(std::size_t count);
 
 /// The median, of an even number the upper of the two; 0 of nothing.

@@ -35,6 +35,9 @@ Extent extent_of(const PointMatrix& points, const std::vector<std::uint32_t>& ro
   return extent;
 }
 
+/// For clouds with points far away.
+__extension__ using LargeNumber = unsigned __int128;
+
 /// A point and the number of its voxel, which counts along x, then y, then z.
 template <class Number>
 struct Member {
@@ -55,7 +58,7 @@ Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows
             static_cast<Number>(cell.x()),
         rows[i]};
   }
-  for (unsigned shift = 0; shift < std::numeric_limits<Number>::digits; shift += 32)
+  for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 32)
     radix_sort(members, [shift](const Member<Number>& one) {
       return static_cast<std::uint32_t>(one.voxel >> shift);
     });
@@ -91,9 +94,9 @@ Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t
   const double per_leaf = 1 / static_cast<double>(leaf);
   const Extent extent = extent_of(points, rows);
   const Eigen::Array3d counts = ((extent.high - extent.low) * per_leaf).floor() + 1;
-  if (!(counts.prod() < 1e19)) throw_too_large(extent.largest(), static_cast<double>(leaf));
+  if (!(counts.maxCoeff() < 4e9)) throw_too_large(extent.largest(), static_cast<double>(leaf));
   return counts.prod() < 4e9 ? grouped<std::uint32_t>(points, rows, extent, counts, per_leaf)
-                             : grouped<std::uint64_t>(points, rows, extent, counts, per_leaf);
+                             : grouped<LargeNumber>(points, rows, extent, counts, per_leaf);
 }
 
 Voxels group_by_voxel(const PointMatrix& points, float leaf) {

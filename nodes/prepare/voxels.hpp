@@ -28,7 +28,7 @@ struct Voxels {
 
 /// Sorts the points with the numbers `rows`, which are finite, into cubes of edge `leaf` [m] whose
 /// corner is their own minimum: a cloud that is moved as a whole is grouped alike. Throws
-/// std::runtime_error where their box holds more than 10^19 cubes.
+/// std::runtime_error where they span more than four billion cubes along an axis.
 Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
                       float leaf);
 

@@ -19,7 +19,8 @@ constexpr Eigen::Index kLook = 1000;     // ... one of those that may be a final
 constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
 constexpr double kHopeless = 0.25;       // of what is needed: ICP seldom raises a score fourfold
 
-// Standard deviations by which one of two poses that look alike must lead where they differ.
+// Standard deviations, were the points independent, by which one of two poses that look alike must
+// lead where they differ.
 constexpr double kTelling = 2;
 
 // A mode of a hundredth of the best one's density needs a score 1.6 times as high to be preferred:
@@ -102,8 +103,8 @@ void ObjectSearch::judge(std::size_t begin, std::size_t end, Eigen::Index sample
   sort_by_rank(pool_.begin(), pool_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-/// Brings the finalists to the front. Scores of before something was taken out are taken as upper
-/// bounds.
+/// Brings the finalists to the front. Scores of before something was taken out, and of sketches,
+/// are taken as upper bounds.
 void ObjectSearch::judge_again() {
   constexpr std::size_t kBatch = 2 * kFinalists;
   for (std::size_t done = 0; done < pool_.size();) {
@@ -126,8 +127,9 @@ Candidates::iterator ObjectSearch::refine_best(Candidates& sorted) const {
   return sorted.begin() + static_cast<std::ptrdiff_t>(count);
 }
 
-/// The best of the finalists after ICP: what cannot reach the threshold keeps nobody from it. Those
-/// that ICP carries onto an instance that is found already leave the pool.
+/// The best of the finalists after ICP that reaches the threshold by its fit, itself or the twin
+/// that is better than it. Those that ICP carries onto an instance that is found already leave the
+/// pool.
 std::optional<Candidate> ObjectSearch::best_finalist() {
   while (!pool_.empty()) {
     const Candidates::iterator end = refine_best(pool_);
@@ -136,10 +138,14 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
     const Candidate* first = nullptr;
     for (auto candidate = pool_.begin(); candidate != end; ++candidate) {
       if (!is_clear(center_of(*candidate))) continue;
-      if (candidate->score >= params_.min_score) return best_alike(*candidate);
-      if (!first) first = &*candidate;
+      if (candidate->score < params_.min_score) {
+        if (!first) first = &*candidate;
+        continue;
+      }
+      const Candidate best = best_alike(*candidate);
+      if (best.score >= params_.min_score) return best;
     }
-    if (first) return best_alike(*first);  // which may reach it
+    if (first) return best_alike(*first);  // a twin may reach it
     pool_.erase(pool_.begin(), end);
   }
   return std::nullopt;

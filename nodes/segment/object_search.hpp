@@ -45,7 +45,7 @@ struct Candidate {
   double score = 0;               ///< of the fit alone
   double consensus = 1;           ///< in [0, 1], of votes, for the best of a search
   bool is_refined = false;        ///< whether the pose is after ICP
-  std::size_t near_symmetry = 0;  ///< of the model, where it is the pose's origin
+  std::size_t near_symmetry = 0;  ///< for twins: which of the model's made them
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
   double confidence() const { return score * consensus; }  ///< that of the detection
 };
@@ -62,7 +62,8 @@ class ObjectSearch {
   /// The best pose when last asked for; none where all were below the threshold.
   const std::optional<Candidate>& best() const { return best_; }
   /// Whether `best` is of the scan as it is now. If not, its score is about an upper bound, because
-  /// points that were taken out support nothing any more.
+  /// points that were taken out support nothing any more; but a pose that a twin displaced may
+  /// return.
   bool is_current() const { return chosen_at_ == scan_.takes; }
   /// Whether all instances that may be are found.
   bool is_full() const { return accepted_ == params_.max_instances; }

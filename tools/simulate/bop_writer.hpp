@@ -23,7 +23,7 @@ class BopWriter {
                  const Eigen::Isometry3d& T_world_sensor, const Scan& scan);
   /// Writes the lists of all models and images.
   void finish() const;
-  /// Whether a writer makes a file or folder of this name in the set's own.
+  /// Whether a writer makes a file or folder of this name in the set's folder.
   static bool makes(const std::filesystem::path& name);
 
  private:
