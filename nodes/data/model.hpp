@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,6 +19,13 @@ struct NearSymmetry {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   std::vector<std::uint32_t> carried_off;  ///< those that the motion carries off the surface
   std::vector<std::uint32_t> uncovered;    ///< those onto which it carries nothing
+
+  /// Whether a cloud of that many points has them all.
+  bool is_within(Eigen::Index points) const {
+    const auto there = [points](std::uint32_t i) { return i < points; };
+    return std::all_of(carried_off.begin(), carried_off.end(), there) &&
+           std::all_of(uncovered.begin(), uncovered.end(), there);
+  }
 };
 
 /// What find_near_symmetries finds.

@@ -67,10 +67,8 @@ void check_model(const Model& model) {
   for (const NearSymmetry& one : model.near_symmetries.items) {
     require(one.motion.matrix().allFinite() && one.motion.linear().isUnitary(1e-6),
             "a near symmetry is no motion");
-    for (const auto* numbers : {&one.carried_off, &one.uncovered})
-      require(std::all_of(numbers->begin(), numbers->end(),
-                          [&](std::uint32_t i) { return i < model.cloud.points.rows(); }),
-              "a near symmetry names a point that is not there");
+    require(one.is_within(model.cloud.points.rows()),
+            "a near symmetry names a point that is not there");
   }
   require_length(model.outline.reach, "the outline's reach");
   require_count(static_cast<Eigen::Index>(model.outline.ends.size()), model.cloud.points.rows(),

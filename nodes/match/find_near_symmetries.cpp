@@ -107,27 +107,28 @@ class Judge {
     const Isometry3d motion = icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
     return {motion, overlap_of(sample_, surface_, motion, fine_)};
   }
-  /// Whether two motions lead to poses that look the same: normals aside, which are anyone's at an
-  /// edge.
+  /// Whether two motions lead to poses that look the same.
   bool same(const Isometry3d& a, const Isometry3d& b) const {
     const Isometry3d between = a.inverse() * b;
     if (Eigen::AngleAxisd(between.linear()).angle() < kSameMotion) return true;
-    const double on = share_of(sample_, between, [this](const OrientedPoint& p) {
-      return surface_.nearest_left(p.point, fine_).has_value();
-    });
-    return on >= kSymmetric;
+    return share_of(sample_, between, [this](const OrientedPoint& p) { return is_on(p); }) >=
+           kSymmetric;
   }
   /// The points of the cloud that a motion carries off the surface.
   std::vector<std::uint32_t> carried_off(const Cloud& cloud, const Isometry3d& motion) const {
     const Eigen::Isometry3f T = motion.cast<float>();
     std::vector<std::uint32_t> off;
     for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
-      if (!surface_.nearest_left(posed_point(cloud, i, T).point, fine_))
-        off.push_back(static_cast<std::uint32_t>(i));
+      if (!is_on(posed_point(cloud, i, T))) off.push_back(static_cast<std::uint32_t>(i));
     return off;
   }
 
  private:
+  /// Normals aside, which are anyone's at an edge.
+  bool is_on(const OrientedPoint& p) const {
+    return surface_.nearest_left(p.point, fine_).has_value();
+  }
+
   Cloud sample_;
   ScanSurface surface_;
   float fine_;

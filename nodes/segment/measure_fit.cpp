@@ -55,21 +55,6 @@ void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
   });
 }
 
-/// What a point says for a pose, or, below 0, against it.
-double balance_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kSupported:
-      return 1;
-    case Verdict::kContradicted:
-      return -1;
-    case Verdict::kMismatched:
-    case Verdict::kUnseen:
-      return -kHalfAgainst;
-    default:
-      return 0;
-  }
-}
-
 Fit count(const std::vector<Judged>& points) {
   Fit fit;
   double squared = 0;
@@ -95,6 +80,12 @@ Fit count(const std::vector<Judged>& points) {
   return fit;
 }
 
+/// How many points speak against the pose.
+double against(const Fit& fit) {
+  return static_cast<double>(fit.contradicted) +
+         kHalfAgainst * static_cast<double>(fit.mismatched + fit.unseen);
+}
+
 }  // namespace
 
 Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& scan,
@@ -117,14 +108,12 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
                       const ScanSurface& scan, const RangeView& view,
                       const Eigen::Isometry3d& T_scene_model, float tolerance) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  Evidence evidence;
-  for (const std::uint32_t i : points) {
-    const OrientedPoint p = posed_point(model, i, T);
-    const Verdict verdict = judge(p, scan, view, scan.viewpoint(), tolerance).verdict;
-    evidence.balance += balance_of(verdict);
-    evidence.sides += balance_of(verdict) != 0;
-  }
-  return evidence;
+  std::vector<Judged> judged;
+  judged.reserve(points.size());
+  for (const std::uint32_t i : points)
+    judged.push_back(judge(posed_point(model, i, T), scan, view, scan.viewpoint(), tolerance));
+  const Fit fit = count(judged);
+  return {static_cast<double>(fit.supported) - against(fit), fit.facing - fit.hidden};
 }
 
 // score = agreement x evidence x continuity.
@@ -148,9 +137,7 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
 double fit_score(const Fit& fit) {
   if (fit.supported == 0) return 0;
   const auto supported = static_cast<double>(fit.supported);
-  const double against = static_cast<double>(fit.contradicted) +
-                         kHalfAgainst * static_cast<double>(fit.mismatched + fit.unseen);
-  const double agreement = supported / (supported + against);
+  const double agreement = supported / (supported + against(fit));
   const double looks = kOutlineDirections * supported;
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
   const double clues = fit.relief + kOutline * (ends - overhang) / looks;

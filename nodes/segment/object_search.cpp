@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/parallel.hpp"
 #include "nodes/segment/icp.hpp"
@@ -166,15 +167,15 @@ Candidate ObjectSearch::best_alike(const Candidate& candidate) const {
   sort_by_rank(alike.begin(), alike.end());
   alike.erase(refine_best(alike), alike.end());
   Candidate best = candidate;
-  double most = kTelling;
+  using Standing = std::pair<double, double>;  // what tells, then the rank
+  Standing highest{0, candidate.rank};
   for (const Candidate& other : alike) {
     const double lead = lead_over(candidate, other);
-    const bool is_better = most > kTelling             ? lead > most
-                           : std::abs(lead) > kTelling ? lead > 0
-                                                       : other.rank > best.rank;
-    if (!is_better || !is_clear(center_of(other))) continue;
+    if (lead < -kTelling) continue;
+    const Standing standing = lead > kTelling ? Standing{lead, 0} : Standing{0, other.rank};
+    if (standing <= highest || !is_clear(center_of(other))) continue;
     best = other;
-    most = std::max(most, lead);
+    highest = standing;
   }
   return best;
 }

@@ -58,12 +58,10 @@ void check_model(const Model& model) {
                              std::to_string(model.cloud.points.rows()) + " points but " +
                              std::to_string(model.outline.ends.size()) + " in its outline");
   for (const NearSymmetry& one : model.near_symmetries.items)
-    for (const auto* points : {&one.carried_off, &one.uncovered})
-      for (const std::uint32_t i : *points)
-        if (i >= model.cloud.points.rows())
-          throw std::runtime_error("model " + model.name + " has " +
-                                   std::to_string(model.cloud.points.rows()) +
-                                   " points, but its near symmetries are of a cloud with more");
+    if (!one.is_within(model.cloud.points.rows()))
+      throw std::runtime_error("model " + model.name + " has " +
+                               std::to_string(model.cloud.points.rows()) +
+                               " points, but its near symmetries are of a cloud with more");
 }
 
 }  // namespace posevote
