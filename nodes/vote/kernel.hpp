@@ -17,6 +17,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -33,49 +34,26 @@ struct VotePoint {
   float tx, ty, tz, qw, qx, qy, qz;
 };
 
-/// Weights are whole multiples of 2^-25, as every float in [0.25, 1] is: sums of them in integers
-/// or doubles are exact and do not depend on their order.
-constexpr float kWeightUnits = 33554432.0F;  // 2^25
+/// Weights are whole multiples of 2^-22: sums of them in integers or doubles are exact and do not
+/// depend on their order.
+constexpr std::uint32_t kWeightUnits = 1U << 22U;
+
+constexpr std::uint32_t kMantissa = (1U << 23U) - 1;  // of a float's bits
 
 /// A sum of weights that was made in units.
-inline double density_of(std::uint64_t units) {
-  return static_cast<double>(units) / static_cast<double>(kWeightUnits);
-}
+inline double density_of(std::uint64_t units) { return static_cast<double>(units) / kWeightUnits; }
 
 /// Constants of the kernel for one bandwidth.
 struct Kernel {
   float max_dt2;         ///< sigma_t^2
   float max_e2;          ///< squared chord of an angle of sigma_R
+  float min_cosine;      ///< between quaternions that may be that near; a trifle less
   float per_dt2;         ///< 1 / 2 sigma_t^2
-  float angle[5];        ///< d_R^2 / 2 sigma_R^2 = e2 (angle[0] + angle[1] e2 + ...)
-  float exponential[7];  ///< 2^25 exp(-s) = exponential[0] + exponential[1] s + ...
+  float angle[4];        ///< d_R^2 / 2 sigma_R^2 = e2 (angle[0] + angle[1] e2 + ...)
+  float exponential[6];  ///< 2^22 exp(-s) + 2^23 = exponential[0] + exponential[1] s + ...
 };
 
-inline Kernel make_kernel(Bandwidth bandwidth) {
-  // d_R^2 = 16 asin^2(e / 2) = 4 e^2 f(e^2). f interpolated at Chebyshev nodes for d_R in [0, 90
-  // deg] (relative error 4e-8), exp(-s) for s in [0, 1.001] (2e-7); both exact at 0.
-  constexpr double kAngle[5] = {1.0, 0.08333326273794667, 0.011114953390318313,
-                                0.001753564978727432, 0.0004009569025188025};
-  constexpr double kExponential[7] = {1.0,
-                                      -0.9999999325189974,
-                                      0.499995137435067,
-                                      -0.16660946280932915,
-                                      0.04141810017459775,
-                                      -0.007836515671237025,
-                                      0.0009121699318414514};
-  Kernel kernel{};
-  const double sigma_t = static_cast<double>(bandwidth.sigma_t);
-  const double sigma_r = static_cast<double>(bandwidth.sigma_r);
-  const double chord = 2 * std::sin(sigma_r / 4);
-  kernel.max_dt2 = bandwidth.sigma_t * bandwidth.sigma_t;
-  kernel.max_e2 = static_cast<float>(chord * chord);
-  kernel.per_dt2 = static_cast<float>(1 / (2 * sigma_t * sigma_t));
-  for (int i = 0; i < 5; ++i)
-    kernel.angle[i] = static_cast<float>(4 * kAngle[i] / (2 * sigma_r * sigma_r));
-  for (int i = 0; i < 7; ++i)
-    kernel.exponential[i] = static_cast<float>(kExponential[i]) * kWeightUnits;
-  return kernel;
-}
+Kernel make_kernel(Bandwidth bandwidth);
 
 /// Squared distance of the translations.
 inline float squared_distance(const VotePoint& a, const VotePoint& b) {
@@ -94,23 +72,26 @@ inline float squared_chord(const VotePoint& a, const VotePoint& b, float sign) {
   return (dw * dw + dx * dx) + (dy * dy + dz * dz);
 }
 
-/// The weight of a neighbour, in units of 2^-25.
-inline float weight_units(const Kernel& k, float dt2, float e2) {
-  float s = k.angle[4];
-  for (int i = 3; i >= 0; --i) s = s * e2 + k.angle[i];
-  s = s * e2 + dt2 * k.per_dt2;
-  float units = k.exponential[6];
-  for (int i = 5; i >= 0; --i) units = units * s + k.exponential[i];
-  return units;
+/// The weight of a neighbour, in units. The last sum is between 2^23 and 2^24, where floats are
+/// whole numbers: its mantissa is the weight.
+inline std::uint32_t weight_units(const Kernel& k, float dt2, float e2) {
+  const float e4 = e2 * e2;
+  const float angle = (k.angle[0] + k.angle[1] * e2) + (k.angle[2] + k.angle[3] * e2) * e4;
+  const float s = angle * e2 + dt2 * k.per_dt2;
+  const float s2 = s * s;
+  const float upper =
+      (k.exponential[2] + k.exponential[3] * s) + (k.exponential[4] + k.exponential[5] * s) * s2;
+  const float sum = (k.exponential[0] + k.exponential[1] * s) + upper * s2;
+  return std::bit_cast<std::uint32_t>(sum) & kMantissa;
 }
 
-/// The weight of b in the density at a, in units of 2^-25; 0 if b is not a neighbour of a.
-/// Symmetric, and the same bits whatever the signs of the quaternions.
+/// The weight of b in the density at a, in units; 0 if b is not a neighbour of a. Symmetric, and
+/// the same bits whatever the signs of the quaternions.
 inline std::uint32_t kernel_units(const Kernel& k, const VotePoint& a, const VotePoint& b) {
   const float dt2 = squared_distance(a, b);
   const float e2 = std::min(squared_chord(a, b, 1), squared_chord(a, b, -1));
   if (!(dt2 <= k.max_dt2 && e2 <= k.max_e2)) return 0;
-  return static_cast<std::uint32_t>(weight_units(k, dt2, e2));
+  return weight_units(k, dt2, e2);
 }
 
 /// Whether a vote can take part: everything finite, the quaternion of unit length to 1e-5, and no

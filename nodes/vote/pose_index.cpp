@@ -79,9 +79,9 @@ std::vector<WeightedVote> PoseIndex::neighbours(const Eigen::Vector3f& center,
   if (!is_usable(pose, sorted.bandwidth)) return found;
   const Kernel kernel = make_kernel(sorted.bandwidth);
   CellSearch search(sorted);
-  for (const VoteRun& run : search.around(translation_cell(pose, sorted.bandwidth)))
-    for (std::uint32_t i = run.begin; i < run.end; ++i)
-      if (const std::uint32_t units = kernel_units(kernel, pose, sorted.votes[i].point))
+  for (const IndexRange& range : search.around(translation_cell(pose, sorted.bandwidth)))
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
+      if (const std::uint32_t units = kernel_units(kernel, pose, sorted.votes.at(i)))
         found.push_back({sorted.numbers[i], static_cast<float>(units) / kWeightUnits});
   std::sort(found.begin(), found.end(),
             [](const WeightedVote& a, const WeightedVote& b) { return a.vote < b.vote; });

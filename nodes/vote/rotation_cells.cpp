@@ -54,17 +54,6 @@ class ChartView {
 
 }  // namespace
 
-RotationCode encode_rotation(VotePoint& vote) {
-  const std::array<float, 4> q{vote.qw, vote.qx, vote.qy, vote.qz};
-  std::uint32_t k = 0;
-  for (std::uint32_t i = 1; i < 4; ++i)
-    if (std::abs(q[i]) > std::abs(q[k])) k = i;
-  if (q[k] < 0) vote = {vote.tx, vote.ty, vote.tz, -vote.qw, -vote.qx, -vote.qy, -vote.qz};
-  RotationCode code = k;
-  for (std::uint32_t i = 1; i < 4; ++i) code = code << 8U | level(warp(q[(k + i) % 4] / q[k]));
-  return code;
-}
-
 RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth) {
   // Members have chord^2 <= max_e2 up to float rounding, and norms of 1 up to 1e-5 (is_usable). So
   // the cosine of the angle between the quaternions is at least 1 - max_e2 / 2 - 5e-5.
@@ -87,18 +76,20 @@ RotationBoxes rotation_boxes(const VotePoint& vote, const RotationReach& reach) 
   const std::array<double, 4> q{static_cast<double>(vote.qw), static_cast<double>(vote.qx),
                                 static_cast<double>(vote.qy), static_cast<double>(vote.qz)};
   RotationBoxes boxes;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    for (const double vote_sign : {1.0, -1.0}) {
-      if (vote_sign * q[k] < reach.chart_limit) continue;
-      RotationBox& box = boxes.items[static_cast<std::size_t>(boxes.count)];
-      box.chart = k;
-      const ChartView view(vote_sign * q[k], reach.sine);
-      bool reached = true;
+  for (std::uint32_t k = 0; k < kCharts; ++k) {
+    RotationBox box{k, {0, 0, 0}, {kLevels - 1, kLevels - 1, kLevels - 1}};
+    bool reached = true;
+    if (std::abs(q[k]) < -reach.chart_limit) {
+      // from q and from -q: all of it
+    } else if (std::abs(q[k]) >= reach.chart_limit) {
+      const double sign = q[k] < 0 ? -1 : 1;  // q and -q are one rotation
+      const ChartView view(sign * q[k], reach.sine);
       for (std::uint32_t i = 0; i < 3 && reached; ++i)
-        reached = view.level_range(vote_sign * q[(k + i + 1) % 4], box.low[i], box.high[i]);
-      box.sign = static_cast<float>(vote_sign);
-      boxes.count += reached;
+        reached = view.level_range(sign * q[(k + i + 1) % 4], box.low[i], box.high[i]);
+    } else {
+      reached = false;
     }
+    if (reached) boxes.items[boxes.count++] = box;
   }
   return boxes;
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "nodes/vote/kernel.hpp"
@@ -20,8 +21,14 @@ namespace posevote {
 /// Chart and levels of one rotation, chart in the highest byte.
 using RotationCode = std::uint32_t;
 
-/// The code of a vote's unit quaternion. Turns the quaternion's sign to that of its chart.
-RotationCode encode_rotation(VotePoint& vote);
+constexpr std::uint32_t kCharts = 4;
+
+inline std::uint32_t chart_of(RotationCode code) { return code >> 24U; }
+
+/// The codes of unit quaternions, the columns of which are `stride` apart: w, x, y, z. Up to
+/// kScanPadding numbers behind the last are read and written.
+void encode_rotations(const float* quaternions, std::size_t stride, std::size_t count,
+                      RotationCode* codes);
 
 /// The ball of rotations around a quaternion that a kernel can reach, as constants.
 struct RotationReach {
@@ -32,19 +39,16 @@ struct RotationReach {
 
 RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth);
 
-/// A box of levels of one chart, borders included. In it, quaternions of the chart's sign are to be
-/// compared with `sign` times the centre.
+/// A box of levels of one chart, borders included.
 struct RotationBox {
   std::uint32_t chart = 0;
-  float sign = 1;
   std::array<std::uint32_t, 3> low{}, high{};
 };
 
-/// Boxes that together hold every rotation within reach of a vote, at most two per chart (one per
-/// sign). A rotation within reach may lie in two boxes, but is near the centre of one sign only.
+/// Boxes that together hold every rotation within reach of a vote, at most one per chart.
 struct RotationBoxes {
-  std::array<RotationBox, 8> items;
-  int count = 0;
+  std::array<RotationBox, kCharts> items;
+  std::size_t count = 0;
 };
 
 RotationBoxes rotation_boxes(const VotePoint& vote, const RotationReach& reach);

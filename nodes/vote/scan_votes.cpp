@@ -21,45 +21,23 @@ using Units = hn::RebindToUnsigned<Floats>;
 using F = hn::Vec<Floats>;
 using U = hn::Vec<Units>;
 
-/// weight_units of kernel.hpp. The result is a whole number, at most 2^25.
-HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2) {
+/// weight_units of kernel.hpp where `near`, else 0.
+HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2, hn::Mask<Floats> near) {
   const Floats d;
-  F s = hn::Set(d, k.angle[4]);
-  for (int i = 3; i >= 0; --i) s = hn::Add(hn::Mul(s, e2), hn::Set(d, k.angle[i]));
-  s = hn::Add(hn::Mul(s, e2), hn::Mul(dt2, hn::Set(d, k.per_dt2)));
-  F units = hn::Set(d, k.exponential[6]);
-  for (int i = 5; i >= 0; --i) units = hn::Add(hn::Mul(units, s), hn::Set(d, k.exponential[i]));
-  return hn::BitCast(Units(), hn::ConvertTo(hn::RebindToSigned<Floats>(), units));
+  const auto line = [d](const float* a, F x) HWY_ATTR {  // a[0] + a[1] x
+    return hn::Add(hn::Set(d, a[0]), hn::Mul(hn::Set(d, a[1]), x));
+  };
+  const F e4 = hn::Mul(e2, e2);
+  const F angle = hn::Add(line(k.angle, e2), hn::Mul(line(k.angle + 2, e2), e4));
+  const F s = hn::Add(hn::Mul(angle, e2), hn::Mul(dt2, hn::Set(d, k.per_dt2)));
+  const F s2 = hn::Mul(s, s);
+  const F upper = hn::Add(line(k.exponential + 2, s), hn::Mul(line(k.exponential + 4, s), s2));
+  const F sum = hn::Add(line(k.exponential, s), hn::Mul(upper, s2));
+  const U bits = hn::And(hn::BitCast(Units(), sum), hn::Set(Units(), kMantissa));
+  return hn::IfThenElseZero(hn::RebindMask(Units(), near), bits);
 }
 
-/// Sums of weights, lane by lane.
-class Total {
- public:
-  HWY_INLINE Total() : lanes_(hn::Zero(Units())) {}
-
-  HWY_INLINE void add(U weights) {
-    lanes_ = hn::Add(lanes_, weights);
-    if (HWY_UNLIKELY(++count_ == kMostWeights)) spill();
-  }
-
-  HWY_INLINE std::uint64_t value() {
-    spill();
-    return value_;
-  }
-
- private:
-  HWY_INLINE void spill() {
-    HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
-    hn::Store(lanes_, Units(), lanes);
-    for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) value_ += lanes[i];
-    lanes_ = hn::Zero(Units());
-    count_ = 0;
-  }
-
-  U lanes_;
-  std::uint32_t count_ = 0;
-  std::uint64_t value_ = 0;
-};
+constexpr std::size_t kMaskBytes = 8;  // read and written at once, however few there are
 
 /// (a - b)^2
 HWY_INLINE F squared_difference(F a, const float* b) {
@@ -67,63 +45,178 @@ HWY_INLINE F squared_difference(F a, const float* b) {
   return hn::Mul(difference, difference);
 }
 
+/// Sums of weights, lane by lane.
+class Total {
+ public:
+  HWY_INLINE Total() : lanes_(hn::Zero(Units())) {}
+
+  HWY_INLINE void add(U weights) { lanes_ = hn::Add(lanes_, weights); }
+
+  /// To be called after kMostWeights.
+  HWY_INLINE void spill() {
+    HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
+    hn::Store(lanes_, Units(), lanes);
+    for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) value_ += lanes[i];
+    lanes_ = hn::Zero(Units());
+  }
+
+  HWY_INLINE std::uint64_t value() const { return value_; }
+
+ private:
+  U lanes_;
+  std::uint64_t value_ = 0;
+};
+
+/// A vector with votes whose rotations may be near, and masks of its lanes.
+struct Found {
+  std::uint32_t first;
+  std::uint8_t in_range[kMaskBytes];
+  std::uint8_t negative[kMaskBytes];  ///< of which -q is nearer
+};
+
 /// A query, each number in every lane.
 class Query {
  public:
-  HWY_INLINE Query(const Kernel& k, const VotePoint& p, float sign) {
+  HWY_INLINE Query(const Kernel& k, const VotePoint& p) {
     const Floats d;
     tx_ = hn::Set(d, p.tx);
     ty_ = hn::Set(d, p.ty);
     tz_ = hn::Set(d, p.tz);
-    qw_ = hn::Set(d, sign * p.qw);
-    qx_ = hn::Set(d, sign * p.qx);
-    qy_ = hn::Set(d, sign * p.qy);
-    qz_ = hn::Set(d, sign * p.qz);
+    qw_ = hn::Set(d, p.qw);
+    qx_ = hn::Set(d, p.qx);
+    qy_ = hn::Set(d, p.qy);
+    qz_ = hn::Set(d, p.qz);
+    min_cosine_ = hn::Set(d, k.min_cosine);
     max_dt2_ = hn::Set(d, k.max_dt2);
     max_e2_ = hn::Set(d, k.max_e2);
   }
 
-  /// The weights of the votes from i on, where `valid`; 0 for those that are not near.
-  HWY_INLINE U weights(const Kernel& kernel, const VoteColumns& c, std::size_t i,
-                       hn::Mask<Floats> valid) const {
-    const F xy = hn::Add(squared_difference(tx_, c.tx + i), squared_difference(ty_, c.ty + i));
-    const F dt2 = hn::Add(xy, squared_difference(tz_, c.tz + i));
-    const F wx = hn::Add(squared_difference(qw_, c.qw + i), squared_difference(qx_, c.qx + i));
-    const F yz = hn::Add(squared_difference(qy_, c.qy + i), squared_difference(qz_, c.qz + i));
+  /// To look first and weigh then spares the processor branches that it cannot foresee. Vectors
+  /// begin at multiples of their length: others would lie across two lines of the cache.
+  HWY_INLINE Found* find_near(const VoteColumns& c, IndexRange range, Found* found) const {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    const float *w = c[3], *x = c[4], *y = c[5], *z = c[6];
+    const std::size_t begin = range.begin / lanes * lanes;
+    const auto look = [&](std::size_t i, hn::Mask<Floats> in_range) HWY_ATTR {
+      F sum = hn::Mul(qw_, hn::LoadU(d, w + i));
+      sum = hn::MulAdd(qx_, hn::LoadU(d, x + i), sum);
+      sum = hn::MulAdd(qy_, hn::LoadU(d, y + i), sum);
+      sum = hn::MulAdd(qz_, hn::LoadU(d, z + i), sum);
+      found->first = static_cast<std::uint32_t>(i);
+      hn::StoreMaskBits(d, in_range, found->in_range);
+      hn::StoreMaskBits(d, hn::Lt(sum, hn::Zero(d)), found->negative);
+      found += !hn::AllFalse(d, hn::Ge(hn::Abs(sum), min_cosine_));
+    };
+    std::size_t i = begin;
+    const std::size_t end = range.end;
+    look(i, hn::AndNot(hn::FirstN(d, range.begin - i), hn::FirstN(d, std::min(lanes, end - i))));
+    for (i += lanes; i + lanes <= end; i += lanes) look(i, hn::FirstN(d, lanes));
+    if (i < end) look(i, hn::FirstN(d, end - i));
+    return found;
+  }
+
+  /// The weights of a vector; 0 for the votes that are not near.
+  HWY_INLINE U weights(const Kernel& kernel, const VoteColumns& c, const Found& vector) const {
+    const Floats d;
+    const std::size_t i = vector.first;
+    const F xy = hn::Add(squared_difference(tx_, c[0] + i), squared_difference(ty_, c[1] + i));
+    const F dt2 = hn::Add(xy, squared_difference(tz_, c[2] + i));
+    const F sign = hn::IfThenElseZero(hn::LoadMaskBits(d, vector.negative), hn::Set(d, -0.0F));
+    const F wx = hn::Add(squared_difference(hn::Xor(qw_, sign), c[3] + i),
+                         squared_difference(hn::Xor(qx_, sign), c[4] + i));
+    const F yz = hn::Add(squared_difference(hn::Xor(qy_, sign), c[5] + i),
+                         squared_difference(hn::Xor(qz_, sign), c[6] + i));
     const F e2 = hn::Add(wx, yz);
     const auto near = hn::And(hn::Le(dt2, max_dt2_), hn::Le(e2, max_e2_));
-    return hn::IfThenElseZero(hn::RebindMask(Units(), hn::And(near, valid)),
-                              weight_units(kernel, dt2, e2));
+    return weight_units(kernel, dt2, e2, hn::And(near, hn::LoadMaskBits(d, vector.in_range)));
   }
 
  private:
-  F tx_, ty_, tz_, qw_, qx_, qy_, qz_, max_dt2_, max_e2_;
+  F tx_, ty_, tz_, qw_, qx_, qy_, qz_, min_cosine_, max_dt2_, max_e2_;
 };
 
 template <bool kBack>
-HWY_INLINE std::uint64_t scan_ranges(const Kernel& kernel, const VoteColumns& columns,
-                                     const VotePoint& point, const ScanRange* ranges,
-                                     std::size_t range_count, std::uint32_t* back) {
-  const Floats d;
+HWY_INLINE std::uint64_t weigh(const Kernel& kernel, const VoteColumns& columns, const Query& query,
+                               const Found* found, std::size_t size, std::uint32_t* back) {
   const Units units;
-  const std::size_t lanes = hn::Lanes(d);
   Total total;
-  for (std::size_t r = 0; r < range_count; ++r) {
-    const Query query(kernel, point, ranges[r].sign);
-    const std::size_t end = ranges[r].end;
-    for (std::size_t i = ranges[r].begin; i < end; i += lanes) {
-      const U weights = query.weights(kernel, columns, i, hn::FirstN(d, std::min(lanes, end - i)));
+  for (std::size_t begin = 0; begin < size; begin += kMostWeights) {
+    const std::size_t end = std::min<std::size_t>(size, begin + kMostWeights);
+    for (std::size_t k = begin; k < end; ++k) {
+      const U weights = query.weights(kernel, columns, found[k]);
       total.add(weights);
-      if (kBack) hn::StoreU(hn::Add(hn::LoadU(units, back + i), weights), units, back + i);
+      std::uint32_t* here = back + found[k].first;
+      if (kBack) hn::StoreU(hn::Add(hn::LoadU(units, here), weights), units, here);
     }
+    total.spill();
   }
   return total.value();
 }
 
+template <bool kBack>
+HWY_INLINE std::uint64_t scan_ranges(const Kernel& kernel, const VoteColumns& columns,
+                                     const VotePoint& point, const IndexRange* ranges,
+                                     std::size_t range_count, std::uint32_t* back) {
+  constexpr std::size_t kRoom = 128;  // vectors
+  Found found[2 * kRoom + 2];  // a range that begins within a vector has one more; one is free
+  const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
+  const Query query(kernel, point);
+  std::size_t size = 0;
+  std::uint64_t sum = 0;
+  for (std::size_t r = 0; r < range_count; ++r) {
+    IndexRange part = ranges[r];
+    for (; part.begin < ranges[r].end; part.begin = part.end) {
+      part.end = std::min(ranges[r].end - part.begin, step) + part.begin;
+      size = static_cast<std::size_t>(query.find_near(columns, part, found + size) - found);
+      if (size <= kRoom) continue;
+      sum += weigh<kBack>(kernel, columns, query, found, size, back);
+      size = 0;
+    }
+  }
+  return sum + weigh<kBack>(kernel, columns, query, found, size, back);
+}
+
 std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
-                   const ScanRange* ranges, std::size_t range_count, std::uint32_t* back) {
+                   const IndexRange* ranges, std::size_t range_count, std::uint32_t* back) {
   return back == nullptr ? scan_ranges<false>(kernel, columns, point, ranges, range_count, back)
                          : scan_ranges<true>(kernel, columns, point, ranges, range_count, back);
+}
+
+/// The squared distance of a coordinate from an interval. Never above that from any number inside:
+/// rounding is monotone, and the order of operations that of the kernel's squared_distance.
+HWY_INLINE F squared_gap(F low, F high, const float* at) {
+  const Floats d;
+  const F t = hn::LoadU(d, at);
+  const F gap = hn::Max(hn::Max(hn::Sub(low, t), hn::Sub(t, high)), hn::Zero(d));
+  return hn::Mul(gap, gap);
+}
+
+std::size_t copy(const Kernel& kernel, const VoteColumns& columns, IndexRange range,
+                 const VoteBox& box, float* to, std::size_t stride, std::uint32_t* numbers) {
+  const Floats d;
+  const Units units;
+  const std::size_t lanes = hn::Lanes(d);
+  F low[3], high[3];
+  for (int a = 0; a < 3; ++a) {
+    low[a] = hn::Set(d, box.low[a]);
+    high[a] = hn::Set(d, box.high[a]);
+  }
+  const F max_dt2 = hn::Set(d, kernel.max_dt2);
+  const U lane = hn::Iota(units, 0);  // in the loop it would be made in memory
+  std::size_t count = 0;
+  for (std::size_t i = range.begin; i < range.end; i += lanes) {
+    const F xy = hn::Add(squared_gap(low[0], high[0], columns[0] + i),
+                         squared_gap(low[1], high[1], columns[1] + i));
+    const F dt2 = hn::Add(xy, squared_gap(low[2], high[2], columns[2] + i));
+    const auto near = hn::And(hn::Le(dt2, max_dt2), hn::FirstN(d, std::min(lanes, range.end - i)));
+    for (std::size_t c = 0; c < kVoteColumns; ++c)
+      hn::StoreU(hn::Compress(hn::LoadU(d, columns[c] + i), near), d, to + c * stride + count);
+    const U number = hn::Add(lane, hn::Set(units, static_cast<std::uint32_t>(i)));
+    hn::StoreU(hn::Compress(number, hn::RebindMask(units, near)), units, numbers + count);
+    count += hn::CountTrue(d, near);
+  }
+  return count;
 }
 
 }  // namespace posevote::HWY_NAMESPACE
@@ -133,10 +226,16 @@ HWY_AFTER_NAMESPACE();
 namespace posevote {
 
 HWY_EXPORT(scan);
+HWY_EXPORT(copy);
 
 std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         const ScanRange* ranges, std::size_t range_count, std::uint32_t* back) {
+                         const IndexRange* ranges, std::size_t range_count, std::uint32_t* back) {
   return HWY_DYNAMIC_DISPATCH(scan)(kernel, columns, query, ranges, range_count, back);
+}
+
+std::size_t copy_near(const Kernel& kernel, const VoteColumns& columns, IndexRange range,
+                      const VoteBox& box, float* to, std::size_t stride, std::uint32_t* numbers) {
+  return HWY_DYNAMIC_DISPATCH(copy)(kernel, columns, range, box, to, stride, numbers);
 }
 
 }  // namespace posevote

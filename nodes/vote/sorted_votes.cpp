@@ -7,50 +7,118 @@
 #include <utility>
 
 #include "graph/parallel.hpp"
+#include "nodes/prepare/radix_sort.hpp"
 
 namespace posevote {
 namespace {
 
-constexpr unsigned kDigitBits = 11;
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+/// For votes that are far apart.
+__extension__ using LargeNumber = unsigned __int128;
 
-/// One stable pass of a radix sort: reorders `order` by the digit of its keys.
-template <class DigitOf>
-void sort_by_digit(std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& buffer,
-                   const DigitOf& digit_of) {
-  std::array<std::uint32_t, kDigits + 1> begin{};
-  for (const std::uint32_t i : order) ++begin[digit_of(i) + 1];
-  for (std::size_t d = 0; d < kDigits; ++d) begin[d + 1] += begin[d];
-  for (const std::uint32_t i : order) buffer[begin[digit_of(i)]++] = i;
-  order.swap(buffer);
+/// A vote and the number of its cell, which counts along z, then y, then x.
+template <class Number>
+struct Member {
+  Number cell;
+  std::uint32_t vote;
+};
+
+struct CellRange {
+  TranslationCell low, high;
+
+  std::uint64_t count(std::int32_t TranslationCell::*axis) const {
+    return static_cast<std::uint64_t>(std::int64_t{high.*axis} - low.*axis + 1);
+  }
+};
+
+constexpr auto kAxes = {&TranslationCell::x, &TranslationCell::y, &TranslationCell::z};
+
+CellRange range_of(const std::vector<TranslationCell>& cells,
+                   const std::vector<std::uint32_t>& votes) {
+  CellRange range{cells[votes.front()], cells[votes.front()]};
+  for (const std::uint32_t v : votes)
+    for (const auto axis : kAxes) {
+      range.low.*axis = std::min(range.low.*axis, cells[v].*axis);
+      range.high.*axis = std::max(range.high.*axis, cells[v].*axis);
+    }
+  return range;
 }
 
-/// Reorders `order` by one coordinate of the cells, in as many passes as its range needs.
-void sort_by_axis(const std::vector<TranslationCell>& cells, std::int32_t TranslationCell::*axis,
-                  std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& buffer) {
-  if (order.empty()) return;
-  std::int32_t low = cells[order[0]].*axis, high = low;
-  for (const std::uint32_t i : order) {
-    low = std::min(low, cells[i].*axis);
-    high = std::max(high, cells[i].*axis);
-  }
-  const auto range = static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low);
-  for (unsigned shift = 0; shift < 32 && (range >> shift) != 0; shift += kDigitBits)
-    sort_by_digit(order, buffer, [&, shift](std::uint32_t i) {
-      const auto key = static_cast<std::uint32_t>(cells[i].*axis) - static_cast<std::uint32_t>(low);
-      return (key >> shift) & (kDigits - 1);
+template <class Number>
+void sort_by_cell(const std::vector<TranslationCell>& cells, const CellRange& range,
+                  std::vector<std::uint32_t>& votes) {
+  std::vector<Member<Number>> members(votes.size());
+  graph::parallel_for(votes.size(), 4096, [&](std::size_t i) {
+    Number number = 0;
+    for (const auto axis : kAxes)
+      number = number * static_cast<Number>(range.count(axis)) +
+               static_cast<Number>(std::int64_t{cells[votes[i]].*axis} - range.low.*axis);
+    members[i] = {number, votes[i]};
+  });
+  for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 32)
+    radix_sort(members, [shift](const Member<Number>& one) {
+      return static_cast<std::uint32_t>(one.cell >> shift);
     });
+  for (std::size_t i = 0; i < votes.size(); ++i) votes[i] = members[i].vote;
 }
 
-/// Appends a vote behind all others; opens its cell if that is new.
-void append(SortedVotes& sorted, const TranslationCell& cell, const SortedVote& vote,
-            std::uint32_t number) {
-  if (sorted.cells.empty() || sorted.cells.back() != cell) {
-    sorted.cells.push_back(cell);
-    sorted.cell_begin.push_back(static_cast<std::uint32_t>(sorted.votes.size()));
+void open_cell(SortedVotes& sorted, const TranslationCell& cell, std::size_t first) {
+  sorted.cells.push_back(cell);
+  sorted.cell_begin.push_back(static_cast<std::uint32_t>(first));
+}
+
+/// Brings the numbers of `sorted` into the order of their cells, those of one cell in their own,
+/// and notes where each cell begins.
+template <class Number>
+void sort_by_cell(const std::vector<TranslationCell>& cells, const CellRange& range,
+                  SortedVotes& sorted) {
+  std::vector<Member<Number>> members(sorted.size());
+  graph::parallel_for(members.size(), 4096, [&](std::size_t i) {
+    const std::uint32_t vote = sorted.numbers[i];
+    Number cell = 0;
+    for (const auto axis : kAxes)
+      cell = cell * static_cast<Number>(range.count(axis)) +
+             static_cast<Number>(std::int64_t{cells[vote].*axis} - range.low.*axis);
+    members[i] = {cell, vote};
+  });
+  for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 32)
+    radix_sort(members, [shift](const Member<Number>& one) {
+      return static_cast<std::uint32_t>(one.cell >> shift);
+    });
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    sorted.numbers[i] = members[i].vote;
+    if (i == 0 || members[i].cell != members[i - 1].cell)
+      open_cell(sorted, cells[members[i].vote], i);
   }
-  sorted.votes.push_back(vote);
-  sorted.numbers.push_back(number);
+}
+
+void sort_by_cell(const std::vector<TranslationCell>& cells, SortedVotes& sorted) {
+  if (!sorted.numbers.empty()) {
+    const CellRange range = range_of(cells, sorted.numbers);
+    double count = 1;
+    for (const auto axis : kAxes) count *= static_cast<double>(range.count(axis));
+    if (count < 4e9)
+      sort_by_cell<std::uint32_t>(cells, range, sorted);
+    else
+      sort_by_cell<LargeNumber>(cells, range, sorted);
+  }
+  sorted.cell_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
+}
+
+/// Copies the votes with these numbers.
+void take(const std::array<const float*, kVoteColumns>& from,
+          const std::vector<std::uint32_t>& numbers, VoteTable& to) {
+  to.resize(numbers.size());
+  for (std::size_t c = 0; c < kVoteColumns; ++c)
+    graph::parallel_for(numbers.size(), 16384,
+                        [column = to[c], source = from[c], &numbers](std::size_t i) {
+                          column[i] = source[numbers[i]];
+                        });
+}
+
+std::array<const float*, kVoteColumns> columns_of(const VoteColumns& columns) {
+  std::array<const float*, kVoteColumns> each{};
+  for (std::size_t c = 0; c < kVoteColumns; ++c) each[c] = columns[c];
+  return each;
 }
 
 /// First position from `from` on, either way, whose cell is not less than `cell`; steps double.
@@ -77,7 +145,9 @@ std::size_t lower_bound_near(const std::vector<TranslationCell>& cells, const Tr
 TranslationCell translation_cell(const VotePoint& vote, Bandwidth bandwidth) {
   const double edge = static_cast<double>(bandwidth.sigma_t) * (1 + 1e-5);
   const auto floor_of = [edge](float x) {
-    return static_cast<std::int32_t>(std::floor(static_cast<double>(x) / edge));
+    const double quotient = static_cast<double>(x) / edge;
+    const auto whole = static_cast<std::int32_t>(quotient);  // std::floor is a call
+    return whole - (quotient < whole ? 1 : 0);
   };
   return {floor_of(vote.tx), floor_of(vote.ty), floor_of(vote.tz)};
 }
@@ -90,53 +160,60 @@ VotePoint vote_point(const VoteSet& votes, std::size_t v) {
 SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   const std::size_t count = votes.tx.size();
   std::vector<TranslationCell> cells(count);
-  std::vector<SortedVote> encoded(count);
   std::vector<char> usable(count);
   graph::parallel_for(count, 4096, [&](std::size_t v) {
-    encoded[v].point = vote_point(votes, v);
-    usable[v] = is_usable(encoded[v].point, bandwidth);
-    if (!usable[v]) return;
-    cells[v] = translation_cell(encoded[v].point, bandwidth);
-    encoded[v].code = encode_rotation(encoded[v].point);
+    const VotePoint point = vote_point(votes, v);
+    usable[v] = is_usable(point, bandwidth);
+    if (usable[v]) cells[v] = translation_cell(point, bandwidth);
   });
-  std::vector<std::uint32_t> order;
-  order.reserve(count);
-  for (std::uint32_t v = 0; v < count; ++v)
-    if (usable[v]) order.push_back(v);
-  std::vector<std::uint32_t> buffer(order.size());
-  for (const auto axis : {&TranslationCell::z, &TranslationCell::y, &TranslationCell::x})
-    sort_by_axis(cells, axis, order, buffer);
   SortedVotes sorted;
   sorted.bandwidth = bandwidth;
-  sorted.votes.reserve(order.size());
-  sorted.numbers.reserve(order.size());
-  for (const std::uint32_t v : order) append(sorted, cells[v], encoded[v], v);
-  sorted.cell_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
+  sorted.numbers.reserve(count);
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (usable[v]) sorted.numbers.push_back(v);
+  sort_by_cell(cells, sorted);
+  take({votes.tx.data(), votes.ty.data(), votes.tz.data(), votes.qw.data(), votes.qx.data(),
+        votes.qy.data(), votes.qz.data()},
+       sorted.numbers, sorted.votes);
+  sorted.codes.resize(sorted.size() + kScanPadding);
+  encode_rotations(sorted.votes[3], sorted.votes.stride(), sorted.size(), sorted.codes.data());
   return sorted;
 }
 
 SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep) {
+  std::vector<std::uint32_t> kept;
   SortedVotes selected;
   selected.bandwidth = all.bandwidth;
-  for (std::size_t c = 0; c < all.cells.size(); ++c)
+  for (std::size_t c = 0; c < all.cells.size(); ++c) {
+    const std::size_t first = kept.size();
     for (std::uint32_t i = all.cell_begin[c]; i < all.cell_begin[c + 1]; ++i)
-      if (keep[all.numbers[i]]) append(selected, all.cells[c], all.votes[i], all.numbers[i]);
-  selected.cell_begin.push_back(static_cast<std::uint32_t>(selected.size()));
+      if (keep[all.numbers[i]]) kept.push_back(i);
+    if (kept.size() > first) open_cell(selected, all.cells[c], first);
+  }
+  selected.cell_begin.push_back(static_cast<std::uint32_t>(kept.size()));
+  take(columns_of(all.votes.columns()), kept, selected.votes);
+  selected.codes.reserve(kept.size());
+  selected.numbers.reserve(kept.size());
+  for (const std::uint32_t i : kept) {
+    selected.codes.push_back(all.codes[i]);
+    selected.numbers.push_back(all.numbers[i]);
+  }
   return selected;
 }
 
-const std::vector<VoteRun>& CellSearch::around(const TranslationCell& cell) & {
-  runs_.clear();
-  for (std::int32_t row = 0; row < 9; ++row) {
+const std::vector<IndexRange>& CellSearch::around(const TranslationCell& cell, bool not_lower) & {
+  ranges_.clear();
+  for (std::int32_t row = not_lower ? 4 : 0; row < 9; ++row) {
     TranslationCell wanted{cell.x + row / 3 - 1, cell.y + row % 3 - 1, cell.z - 1};
+    if (not_lower && row == 4) wanted.z = cell.z;
     std::size_t& cursor = cursor_[row];
     cursor = lower_bound_near(votes_->cells, wanted, cursor);
     wanted.z = cell.z + 1;
     std::size_t last = cursor;
     while (last < votes_->cells.size() && votes_->cells[last] <= wanted) ++last;
-    if (last > cursor) runs_.push_back({votes_->cell_begin[cursor], votes_->cell_begin[last]});
+    if (last > cursor) ranges_.push_back({votes_->cell_begin[cursor], votes_->cell_begin[last]});
   }
-  return runs_;
+  return ranges_;
 }
 
 }  // namespace posevote

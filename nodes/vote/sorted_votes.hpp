@@ -11,6 +11,7 @@
 #include "nodes/data/votes.hpp"
 #include "nodes/vote/kernel.hpp"
 #include "nodes/vote/rotation_cells.hpp"
+#include "nodes/vote/vote_table.hpp"
 
 namespace posevote {
 
@@ -20,26 +21,16 @@ struct TranslationCell {
   auto operator<=>(const TranslationCell&) const = default;
 };
 
-/// A vote as the searches read it, its quaternion with the sign of its chart. Half a cache line.
-struct SortedVote {
-  VotePoint point;
-  RotationCode code;
-};
-
 /// Translations that are neighbours lie in cells that differ by at most 1 along each axis.
 struct SortedVotes {
   Bandwidth bandwidth;
-  std::vector<SortedVote> votes;          ///< by cell, then by number
+  VoteTable votes;                        ///< by cell, then by number
+  std::vector<RotationCode> codes;        ///< of each
   std::vector<std::uint32_t> numbers;     ///< of each in the VoteSet
   std::vector<TranslationCell> cells;     ///< occupied ones, ascending
   std::vector<std::uint32_t> cell_begin;  ///< per cell and one more: its first vote
 
-  std::size_t size() const { return votes.size(); }
-};
-
-/// Votes lo to hi - 1 of a SortedVotes.
-struct VoteRun {
-  std::uint32_t begin = 0, end = 0;
+  std::size_t size() const { return numbers.size(); }
 };
 
 /// The cell of a usable vote.
@@ -54,19 +45,19 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth);
 /// The votes whose number n has keep[n] != 0, in the same order.
 SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep);
 
-/// Finds the runs of votes in the 3 x 3 x 3 cells around a cell. Fast when asked for cells in
-/// ascending order, for then each row of cells is found beside its predecessor.
+/// Finds the votes in the 3 x 3 x 3 cells around a cell. Fast when asked for cells in ascending
+/// order, for then each row of cells is found beside its predecessor.
 class CellSearch {
  public:
   explicit CellSearch(const SortedVotes& votes) : votes_(&votes) {}
 
-  /// The non-empty runs around a cell, ascending.
-  const std::vector<VoteRun>& around(const TranslationCell& cell) &;
+  /// The votes around a cell, ascending; without those of lower cells if `not_lower`.
+  const std::vector<IndexRange>& around(const TranslationCell& cell, bool not_lower = false) &;
 
  private:
   const SortedVotes* votes_;
   std::size_t cursor_[9] = {};  ///< per row of cells: where the last search ended
-  std::vector<VoteRun> runs_;
+  std::vector<IndexRange> ranges_;
 };
 
 }  // namespace posevote

@@ -2,11 +2,14 @@
 // The kernel against the formulas of the paper, and the vector code against it, bit for bit.
 #include "nodes/vote/kernel.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <numbers>
 #include <random>
 #include <vector>
 
+#include "nodes/vote/rotation_cells.hpp"
 #include "nodes/vote/scan_votes.hpp"
 #include "nodes/vote/sorted_votes.hpp"
 #include "tests/support/instruction_set.hpp"
@@ -29,8 +32,8 @@ TEST_CASE("a vote weighs exactly 1 at itself, whatever the sign", "[vote]") {
     for (int i = 0; i < 1000; ++i) {
       const VotePoint v = vote(test::random_direction(random), test::random_rotation(random));
       const Kernel kernel = make_kernel({0.01F, sigma_r});
-      REQUIRE(kernel_units(kernel, v, v) == 1U << 25U);
-      REQUIRE(kernel_units(kernel, v, negated(v)) == 1U << 25U);
+      REQUIRE(kernel_units(kernel, v, v) == kWeightUnits);
+      REQUIRE(kernel_units(kernel, v, negated(v)) == kWeightUnits);
     }
 }
 
@@ -55,7 +58,7 @@ TEST_CASE("the kernel follows the paper, is cut at both bandwidths, and is symme
         std::exp(-0.5 * static_cast<double>(t_share * t_share + r_share * r_share));
     // A turn of 1 deg is told from its neighbours to some 1e-5 of itself by float quaternions.
     if (t_share < 0.9999F && r_share < 0.999F)
-      REQUIRE(units / 33554432.0 == Approx(expected).epsilon(sigma_r < 0.1F ? 1e-4 : 3e-6));
+      REQUIRE(density_of(units) == Approx(expected).epsilon(sigma_r < 0.1F ? 1e-4 : 1e-5));
   }
 }
 
@@ -66,31 +69,99 @@ TEST_CASE("scanning equals the kernel bit for bit, on every instruction set", "[
   const Bandwidth bandwidth{0.01F, 22.5F * kDegree};
   const Kernel kernel = make_kernel(bandwidth);
   const VoteSet votes = test::clustered_votes(random, 6000, 1, 0, bandwidth);
-  std::vector<std::vector<float>> columns;
+  VoteTable table;
+  table.resize(votes.tx.size());
+  std::size_t column = 0;
   for (const auto* c :
-       {&votes.tx, &votes.ty, &votes.tz, &votes.qw, &votes.qx, &votes.qy, &votes.qz}) {
-    columns.push_back(*c);
-    columns.back().resize(c->size() + kScanPadding);
-  }
-  const VoteColumns pointers{columns[0].data(), columns[1].data(), columns[2].data(),
-                             columns[3].data(), columns[4].data(), columns[5].data(),
-                             columns[6].data()};
+       {&votes.tx, &votes.ty, &votes.tz, &votes.qw, &votes.qx, &votes.qy, &votes.qz})
+    std::copy(c->begin(), c->end(), table[column++]);
+  const auto at = [&](std::size_t v) { return vote_point(votes, v); };
   for (std::uint32_t i = 0; i < 300; ++i) {
     const std::uint32_t begin = i * 7, end = i == 299 ? 6000 : begin + i % 70;
-    const ScanRange ranges[2] = {{begin, end, 1}, {begin, end, -1}};
-    const auto at = [&](std::size_t v) { return vote_point(votes, v); };
+    const std::uint32_t middle = std::min(end, begin + i % 5);
+    const IndexRange ranges[2] = {{begin, middle}, {middle, end}};
     std::uint64_t expected = 0;
     std::vector<std::uint32_t> back(6000 + kScanPadding, 0), expected_back = back;
     for (std::uint32_t v = begin; v < end; ++v) {
       expected_back[v] = kernel_units(kernel, at(i), at(v));
       expected += expected_back[v];
     }
-    REQUIRE(scan_votes(kernel, pointers, at(i), ranges, 2, nullptr) == expected);
-    REQUIRE(scan_votes(kernel, pointers, at(i), ranges, 2, back.data()) == expected);
+    REQUIRE(scan_votes(kernel, table.columns(), at(i), ranges, 2, nullptr) == expected);
+    REQUIRE(scan_votes(kernel, table.columns(), at(i), ranges, 2, back.data()) == expected);
     REQUIRE(back == expected_back);
   }
-  const ScanRange all{0, 6000, 1};
-  CHECK(scan_votes(kernel, pointers, vote({0, 0, 0}, {1, 0, 0, 0}), &all, 0, nullptr) == 0);
+  const IndexRange all{0, 6000};
+  CHECK(scan_votes(kernel, table.columns(), vote({0, 0, 0}, {1, 0, 0, 0}), &all, 0, nullptr) == 0);
+}
+
+TEST_CASE("votes near a box are all copied, on every instruction set", "[vote]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  std::mt19937 random(4);
+  const Kernel kernel = make_kernel({0.01F, 0.4F});
+  const VoteSet votes = test::spread_votes(random, 1000, 0.05F);
+  const SortedVotes sorted = sort_votes(votes, {0.01F, 0.4F});
+  const VoteBox box{{-0.003F, -0.002F, -0.004F}, {0.001F, 0.004F, 0}};
+  for (const IndexRange range : {IndexRange{0, 1000}, {3, 14}, {17, 17}, {500, 998}}) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const VotePoint p = sorted.votes.at(i);
+      const VotePoint nearest{std::clamp(p.tx, box.low[0], box.high[0]),
+                              std::clamp(p.ty, box.low[1], box.high[1]),
+                              std::clamp(p.tz, box.low[2], box.high[2]),
+                              p.qw,
+                              p.qx,
+                              p.qy,
+                              p.qz};
+      if (squared_distance(p, nearest) <= kernel.max_dt2) expected.push_back(i);
+    }
+    VoteTable near;
+    near.resize(1000);
+    std::vector<std::uint32_t> numbers(1000 + kScanPadding);
+    const std::size_t count = copy_near(kernel, sorted.votes.columns(), range, box, near[0],
+                                        near.stride(), numbers.data());
+    numbers.resize(count);
+    REQUIRE(numbers == expected);
+    for (std::size_t i = 0; i < count; ++i) {
+      const VotePoint copied = near.at(i), original = sorted.votes.at(numbers[i]);
+      REQUIRE(std::memcmp(&copied, &original, sizeof copied) == 0);
+    }
+  }
+}
+
+TEST_CASE("every rotation within reach lies in one of a vote's boxes, on every instruction set",
+          "[vote]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  std::mt19937 random(5);
+  const float sigma_r = kDegree * GENERATE(1.0F, 22.5F, 60.0F, 90.0F);
+  const Bandwidth bandwidth{0.01F, sigma_r};
+  const RotationReach reach = make_rotation_reach(make_kernel(bandwidth), bandwidth);
+  std::uniform_real_distribution<float> share(0, 0.9999F);
+  VoteSet near;
+  std::vector<VotePoint> centers;
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Quaternionf q = test::random_rotation(random);
+    const Eigen::AngleAxisf turn(share(random) * sigma_r, test::random_direction(random));
+    centers.push_back(vote({0, 0, 0}, q));
+    test::add_vote(near, {0, 0, 0}, (turn * q).normalized());
+  }
+  const SortedVotes sorted = sort_votes(near, bandwidth);
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    const RotationBoxes boxes = rotation_boxes(centers[sorted.numbers[i]], reach);
+    const RotationCode code = sorted.codes[i];
+    int holding = 0;
+    for (std::size_t b = 0; b < boxes.count; ++b) {
+      const RotationBox& box = boxes.items[b];
+      bool inside = box.chart == chart_of(code);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const std::uint32_t level = code >> (16 - 8 * a) & 255U;
+        inside = inside && box.low[a] <= level && level <= box.high[a];
+      }
+      holding += inside;
+    }
+    REQUIRE(holding == 1);
+  }
 }
 
 }  // namespace

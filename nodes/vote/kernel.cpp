@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/vote/kernel.hpp"
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+namespace posevote {
+namespace {
+
+/// Coefficients of the polynomial that equals f at Chebyshev's nodes of [0, end], where f is close
+/// to its best.
+template <std::size_t kCount, class F>
+std::array<double, kCount> interpolate(const F& f, double end) {
+  std::array<double, kCount> nodes{}, newton{}, result{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(kCount);
+    nodes[i] = end / 2 * (1 + std::cos(std::numbers::pi * share));
+    newton[i] = f(nodes[i]);
+  }
+  for (std::size_t order = 1; order < kCount; ++order)
+    for (std::size_t i = kCount - 1; i >= order; --i)
+      newton[i] = (newton[i] - newton[i - 1]) / (nodes[i] - nodes[i - order]);
+  for (std::size_t i = kCount; i-- > 0;) {  // result = result (x - nodes[i]) + newton[i]
+    for (std::size_t k = kCount - 1; k > 0; --k) result[k] = result[k - 1] - nodes[i] * result[k];
+    result[0] = newton[i] - nodes[i] * result[0];
+  }
+  return result;
+}
+
+}  // namespace
+
+Kernel make_kernel(Bandwidth bandwidth) {
+  const double sigma_t = static_cast<double>(bandwidth.sigma_t);
+  const double sigma_r = static_cast<double>(bandwidth.sigma_r);
+  const double chord = 2 * std::sin(sigma_r / 4);
+  Kernel kernel{};
+  kernel.max_dt2 = bandwidth.sigma_t * bandwidth.sigma_t;
+  kernel.max_e2 = static_cast<float>(chord * chord);
+  // e2 = |q|^2 + |q'|^2 - 2 <q, q'>, and the norms are 1 up to 1e-5 (is_usable).
+  kernel.min_cosine = static_cast<float>(1 - chord * chord / 2 - 5e-5);
+  kernel.per_dt2 = static_cast<float>(1 / (2 * sigma_t * sigma_t));
+  // Both are exact at 0: of (f - f(0)) / x a polynomial is made.
+  const auto angle = interpolate<3>(
+      [](double e2) {  // d_R^2 = 16 asin^2(e / 2)
+        const double d = 4 * std::asin(std::sqrt(e2) / 2);
+        return (d * d / e2 - 4) / e2;
+      },
+      chord * chord);
+  kernel.angle[0] = static_cast<float>(4 / (2 * sigma_r * sigma_r));
+  for (std::size_t i = 0; i < 3; ++i)
+    kernel.angle[i + 1] = static_cast<float>(angle[i] / (2 * sigma_r * sigma_r));
+  const auto exponential = interpolate<5>([](double s) { return std::expm1(-s) / s; }, 1.001);
+  kernel.exponential[0] = static_cast<float>(kWeightUnits + kMantissa + 1);
+  for (std::size_t i = 0; i < 5; ++i)
+    kernel.exponential[i + 1] = static_cast<float>(exponential[i] * kWeightUnits);
+  return kernel;
+}
+
+}  // namespace posevote
