@@ -6,8 +6,11 @@
 namespace posevote {
 namespace {
 
-constexpr float kOtherRotation = 1.0471976F;  // 60 deg
-constexpr int kRotationsPerPlace = 3;
+// Finer than instances can lie: of an object that is hardly seen, the right pose is no denser than
+// wrong ones beside it.
+constexpr float kFiner = 1.0F / 3;
+constexpr float kOtherRotation = 0.52359878F;  // 30 deg
+constexpr int kRotationsPerPlace = 6;
 
 bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& denser, float radius) {
   int here = 0;
@@ -57,7 +60,7 @@ std::vector<PoseMode> separate_modes(const std::vector<PoseMode>& modes,
     const bool clear = std::all_of(taken.begin(), taken.end(), [&](const Eigen::Vector3f& other) {
       return (mode.center - other).norm() > radius;
     });
-    if (clear && !is_suppressed(mode, kept, radius)) kept.push_back(mode);
+    if (clear && !is_suppressed(mode, kept, kFiner * radius)) kept.push_back(mode);
   }
   return kept;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Modes of the vote density: one instance is the argmax (paper, eq. 12); many instances are the
 // best vote of each correspondence, thinned by non-maximum suppression on where the model's centre
-// lands (paper, section 4, "Multi-object and multi-instance recognition"). Among modes that are
-// still to be judged, a place may stand in for up to three quite different rotations: an
+// lands (paper, section 4, "Multi-object and multi-instance recognition"). Modes that are still to
+// be judged may lie three times as close, and a place may stand in for up to six rotations: an
 // upside-down cup is a mode where the upright one is, and can be the denser. Linear in the number
 // of votes.
 #pragma once
@@ -34,8 +34,8 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
                                       double min_density);
 
 /// Non-maximum suppression: the first `count` of `modes` whose centres lie farther than `radius`
-/// from every centre in `taken`, and from each other unless their rotations differ by more than 60
-/// deg; at most three near one place.
+/// from every centre in `taken`, and than a third of it from each other unless their rotations
+/// differ by more than 30 deg; at most six near one place.
 std::vector<PoseMode> separate_modes(const std::vector<PoseMode>& modes,
                                      const std::vector<Eigen::Vector3f>& taken, float radius,
                                      std::size_t count);

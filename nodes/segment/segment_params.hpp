@@ -43,7 +43,7 @@ Registration with_segment_params(Registration node) {
              "Densest modes of which the instances are chosen; 1: the densest, as in the paper.",
              graph::in_range(1, 10000));
   node.param("nms", &P::nms, "x diagonal",
-             "Modes of one object lie farther apart than this share of its bounding box.",
+             "Instances of one object lie farther apart than this share of its bounding box.",
              graph::in_range(0, 10));
   node.param("min_density", &P::min_density, "votes",
              "A mode of lower density (of the votes that are left) is not tried.",
