@@ -35,7 +35,7 @@ TEST_CASE("at the true pose nearly all that faces the sensor is supported", "[se
 }
 
 TEST_CASE("named points weigh what they say of a pose", "[segment]") {
-  const Cloud& model = bumpy_model(1)->cloud;
+  const Cloud model = bumpy_model(1)->cloud;
   const Cloud scan = scan_of({kBody});
   const RangeView view(scan, kResolution);
   const ScanSurface surface(scan, view.usable(), kTolerance);
