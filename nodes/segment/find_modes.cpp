@@ -6,18 +6,13 @@
 namespace posevote {
 namespace {
 
-// Finer than instances can lie: of an object that is hardly seen, the right pose is no denser than
-// wrong ones beside it.
-constexpr float kFiner = 1.0F / 3;
-constexpr float kOtherRotation = 0.52359878F;  // 30 deg
-constexpr int kRotationsPerPlace = 6;
-
-bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& denser, float radius) {
+bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& better,
+                   const Separation& separation) {
   int here = 0;
-  for (const PoseMode& other : denser) {
-    if ((mode.center - other.center).norm() > radius) continue;
-    if (mode.rotation.angularDistance(other.rotation) <= kOtherRotation) return true;
-    if (++here == kRotationsPerPlace) return true;
+  for (const PoseMode& other : better) {
+    if ((mode.center - other.center).norm() > separation.distance) continue;
+    if (mode.rotation.angularDistance(other.rotation) <= separation.angle) return true;
+    if (++here == separation.per_place) return true;
   }
   return false;
 }
@@ -51,18 +46,16 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
   return best;
 }
 
-std::vector<PoseMode> separate_modes(const std::vector<PoseMode>& modes,
-                                     const std::vector<Eigen::Vector3f>& taken, float radius,
-                                     std::size_t count) {
+std::vector<std::size_t> separate_modes(const std::vector<PoseMode>& modes,
+                                        const Separation& separation, std::size_t count) {
+  std::vector<std::size_t> numbers;
   std::vector<PoseMode> kept;
-  for (const PoseMode& mode : modes) {
-    if (kept.size() == count) break;
-    const bool clear = std::all_of(taken.begin(), taken.end(), [&](const Eigen::Vector3f& other) {
-      return (mode.center - other).norm() > radius;
-    });
-    if (clear && !is_suppressed(mode, kept, kFiner * radius)) kept.push_back(mode);
+  for (std::size_t i = 0; i < modes.size() && kept.size() < count; ++i) {
+    if (is_suppressed(modes[i], kept, separation)) continue;
+    numbers.push_back(i);
+    kept.push_back(modes[i]);
   }
-  return kept;
+  return numbers;
 }
 
 double runner_up_density(const VoteSet& votes, const std::vector<double>& density,

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Modes of the vote density: one instance is the argmax (paper, eq. 12); many instances are the
 // best vote of each correspondence, thinned by non-maximum suppression on where the model's centre
-// lands (paper, section 4, "Multi-object and multi-instance recognition"). Modes that are still to
-// be judged may lie three times as close, and a place may stand in for up to six rotations: an
-// upside-down cup is a mode where the upright one is, and can be the denser. Linear in the number
-// of votes.
+// lands (paper, section 4, "Multi-object and multi-instance recognition"). A place may stand in for
+// several quite different rotations: an upside-down cup is a mode where the upright one is, and can
+// be the denser. Linear in the number of votes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -33,12 +32,17 @@ PoseMode vote_pose(const VoteSet& votes, std::uint32_t vote);
 std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,
                                       double min_density);
 
-/// Non-maximum suppression: the first `count` of `modes` whose centres lie farther than `radius`
-/// from every centre in `taken`, and than a third of it from each other unless their rotations
-/// differ by more than 30 deg; at most six near one place.
-std::vector<PoseMode> separate_modes(const std::vector<PoseMode>& modes,
-                                     const std::vector<Eigen::Vector3f>& taken, float radius,
-                                     std::size_t count);
+/// How far poses lie apart.
+struct Separation {
+  float distance;  ///< of their centres, unless they are turned [m]
+  float angle;     ///< by more than this [rad],
+  int per_place;   ///< at most so many
+};
+
+/// Non-maximum suppression: the numbers of the first `count` modes that are separate from all of
+/// those before.
+std::vector<std::size_t> separate_modes(const std::vector<PoseMode>& modes,
+                                        const Separation& separation, std::size_t count);
 
 /// The highest density among the votes whose centre lies farther than `radius` from `center`; 0
 /// where there are none.

@@ -12,13 +12,13 @@
 namespace posevote {
 namespace {
 
-constexpr std::size_t kShortlist = 100;  // improved, judged by kSketch model points
-constexpr std::size_t kFinalists = 5;    // refined by ICP, judged by all
-constexpr Eigen::Index kGlance = 100;    // model points that judge a proposal as it came
-constexpr Eigen::Index kSketch = 300;    // ... an improved one
-constexpr Eigen::Index kLook = 1000;     // ... one of those that may be a finalist
-constexpr double kKeptSupport = 0.95;    // ICP may lose a few chance partners at the silhouette
-constexpr double kHopeless = 0.25;       // of what is needed: ICP seldom raises a score fourfold
+constexpr std::size_t kShortlist = 80;  // improved, judged by kSketch model points
+constexpr std::size_t kFinalists = 5;   // refined by ICP, judged by all
+constexpr Eigen::Index kGlance = 50;    // model points that judge a proposal as it came
+constexpr Eigen::Index kSketch = 300;   // ... an improved one
+constexpr Eigen::Index kLook = 1000;    // ... one of those that may be a finalist
+constexpr double kKeptSupport = 0.95;   // ICP may lose a few chance partners at the silhouette
+constexpr double kHopeless = 0.25;      // of what is needed: ICP seldom raises a score fourfold
 
 // Standard deviations, were the points independent, by which one of two poses that look alike must
 // lead where they differ.
@@ -37,6 +37,11 @@ constexpr double kTrustInSupport = 0.1;
 constexpr double kTrustInConsensus = 0.2;
 constexpr double kUsualVotes = 60;
 
+// Of an object that is hardly seen the right pose is no denser than wrong ones beside it. So modes
+// are proposed finely, and what lies near a better one goes when all have been judged.
+Separation proposed_separation(float nms_radius) { return {nms_radius / 3, 0.52359878F, 6}; }
+Separation judged_separation(float nms_radius) { return {nms_radius, 1.0471976F, 3}; }
+
 using Candidates = std::vector<Candidate>;
 
 void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
@@ -53,10 +58,12 @@ ObjectSearch::ObjectSearch(const Model& model, Proposals proposals, const Instan
 void ObjectSearch::propose() {
   most_support_ = 1e-9;
   pool_.clear();
-  for (const PoseMode& mode :
-       separate_modes(proposals_.propose(), taken_, params_.nms_radius, params_.candidates)) {
-    pool_.emplace_back().mode = mode;
-    most_support_ = std::max(most_support_, mode.support);
+  std::vector<PoseMode> modes = proposals_.propose();
+  std::erase_if(modes, [this](const PoseMode& mode) { return !is_clear(mode.center); });
+  for (const std::size_t i :
+       separate_modes(modes, proposed_separation(params_.nms_radius), params_.candidates)) {
+    pool_.emplace_back().mode = modes[i];
+    most_support_ = std::max(most_support_, modes[i].support);
   }
   if (pool_.size() > kShortlist) {
     judge(0, pool_.size(), kGlance);
@@ -65,8 +72,20 @@ void ObjectSearch::propose() {
   graph::parallel_for(pool_.size(), 1,
                       [this](std::size_t i) { pool_[i].mode = proposals_.improve(pool_[i].mode); });
   judge(0, pool_.size(), kSketch);
+  leave_out_likes();
   proposed_at_ = scan_.takes;
   choose();
+}
+
+/// Of a pool that is sorted.
+void ObjectSearch::leave_out_likes() {
+  std::vector<PoseMode> modes;
+  for (const Candidate& candidate : pool_) modes.push_back(candidate.mode);
+  Candidates kept;
+  for (const std::size_t i :
+       separate_modes(modes, judged_separation(params_.nms_radius), modes.size()))
+    kept.push_back(std::move(pool_[i]));
+  pool_.swap(kept);
 }
 
 void ObjectSearch::choose() {

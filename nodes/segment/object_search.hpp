@@ -81,6 +81,7 @@ class ObjectSearch {
  private:
   void choose_among_judged();
   void judge(std::size_t begin, std::size_t end, Eigen::Index samples);
+  void leave_out_likes();
   void judge_again();
   std::optional<Candidate> best_finalist();
   void refine(Candidate& candidate) const;
