@@ -19,6 +19,11 @@ bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& better,
 
 }  // namespace
 
+bool is_like(const PoseMode& a, const PoseMode& b, const Separation& separation) {
+  return (a.center - b.center).norm() <= separation.distance &&
+         a.rotation.angularDistance(b.rotation) <= separation.angle;
+}
+
 Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
   return {votes.tx[vote], votes.ty[vote], votes.tz[vote]};
 }

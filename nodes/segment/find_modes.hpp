@@ -39,6 +39,9 @@ struct Separation {
   int per_place;   ///< at most so many
 };
 
+/// Whether two poses are not apart.
+bool is_like(const PoseMode& a, const PoseMode& b, const Separation& separation);
+
 /// Non-maximum suppression: the numbers of the first `count` modes that are separate from all of
 /// those before.
 std::vector<std::size_t> separate_modes(const std::vector<PoseMode>& modes,

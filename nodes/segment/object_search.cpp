@@ -77,15 +77,21 @@ void ObjectSearch::propose() {
   choose();
 }
 
-/// Of a pool that is sorted.
+/// Of a pool that is sorted. What stays speaks for its place: it takes over the highest support.
 void ObjectSearch::leave_out_likes() {
+  const Separation separation = judged_separation(params_.nms_radius);
   std::vector<PoseMode> modes;
   for (const Candidate& candidate : pool_) modes.push_back(candidate.mode);
   Candidates kept;
-  for (const std::size_t i :
-       separate_modes(modes, judged_separation(params_.nms_radius), modes.size()))
-    kept.push_back(std::move(pool_[i]));
+  for (const std::size_t i : separate_modes(modes, separation, modes.size())) {
+    Candidate& candidate = kept.emplace_back(std::move(pool_[i]));
+    for (const PoseMode& like : modes)
+      if (is_like(like, modes[i], separation))
+        candidate.mode.support = std::max(candidate.mode.support, like.support);
+    set_score(candidate);
+  }
   pool_.swap(kept);
+  sort_by_rank(pool_.begin(), pool_.end());
 }
 
 void ObjectSearch::choose() {
