@@ -17,22 +17,30 @@ inline std::uint32_t ordered_bits(float value) {
   return (bits >> 31) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-/// Sorts in ascending key(item), a std::uint32_t; equals stay in their order. Least significant
+/// A key for what 64 bits do not hold, as places of clouds with points far away.
+__extension__ using LargeNumber = unsigned __int128;
+
+/// Sorts in ascending key(item), an unsigned number; equals stay in their order. Least significant
 /// digit first; digits that all keys share cost nothing.
-template <class Item, class Key>
-void radix_sort(std::vector<Item>& items, const Key& key) {
+template <class Item, class KeyOf>
+void radix_sort(std::vector<Item>& items, const KeyOf& key) {
+  if (items.empty()) return;
+  using Key = decltype(key(items.front()));
   constexpr int kDigit = 11;  // bits
-  constexpr std::uint32_t kMask = (1U << kDigit) - 1;
-  std::uint32_t differing = 0;
+  constexpr std::size_t kMask = (1U << kDigit) - 1;
+  const auto digit = [&key](const Item& item, unsigned shift) {
+    return static_cast<std::size_t>(key(item) >> shift) & kMask;
+  };
+  Key differing = 0;
   for (const Item& item : items) differing |= key(item) ^ key(items.front());
   std::vector<Item> sorted(differing == 0 ? 0 : items.size());
-  for (int shift = 0; shift < 32; shift += kDigit) {
-    if ((differing >> shift & kMask) == 0) continue;
+  for (unsigned shift = 0; shift < 8 * sizeof(Key); shift += kDigit) {
+    if ((static_cast<std::size_t>(differing >> shift) & kMask) == 0) continue;
     std::array<std::size_t, kMask + 1> place{};
-    for (const Item& item : items) ++place[key(item) >> shift & kMask];
+    for (const Item& item : items) ++place[digit(item, shift)];
     std::size_t sum = 0;
     for (std::size_t& count : place) count = std::exchange(sum, sum + count);
-    for (const Item& item : items) sorted[place[key(item) >> shift & kMask]++] = item;
+    for (const Item& item : items) sorted[place[digit(item, shift)]++] = item;
     items.swap(sorted);
   }
 }

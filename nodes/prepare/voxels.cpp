@@ -35,9 +35,6 @@ Extent extent_of(const PointMatrix& points, const std::vector<std::uint32_t>& ro
   return extent;
 }
 
-/// For clouds with points far away.
-__extension__ using LargeNumber = unsigned __int128;
-
 /// A point and the number of its voxel, which counts along x, then y, then z.
 template <class Number>
 struct Member {
@@ -58,10 +55,7 @@ Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows
             static_cast<Number>(cell.x()),
         rows[i]};
   }
-  for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 32)
-    radix_sort(members, [shift](const Member<Number>& one) {
-      return static_cast<std::uint32_t>(one.voxel >> shift);
-    });
+  radix_sort(members, [](const Member<Number>& one) { return one.voxel; });
   Voxels voxels;
   voxels.order.reserve(members.size());
   for (std::size_t i = 0; i < members.size(); ++i) {

@@ -6,10 +6,12 @@
 namespace posevote {
 namespace {
 
-bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& better,
-                   const Separation& separation) {
+/// `better`: numbers of modes.
+bool is_suppressed(const PoseMode& mode, const std::vector<PoseMode>& modes,
+                   const std::vector<std::size_t>& better, const Separation& separation) {
   int here = 0;
-  for (const PoseMode& other : better) {
+  for (const std::size_t i : better) {
+    const PoseMode& other = modes[i];
     if ((mode.center - other.center).norm() > separation.distance) continue;
     if (mode.rotation.angularDistance(other.rotation) <= separation.angle) return true;
     if (++here == separation.per_place) return true;
@@ -53,14 +55,10 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
 
 std::vector<std::size_t> separate_modes(const std::vector<PoseMode>& modes,
                                         const Separation& separation, std::size_t count) {
-  std::vector<std::size_t> numbers;
-  std::vector<PoseMode> kept;
-  for (std::size_t i = 0; i < modes.size() && kept.size() < count; ++i) {
-    if (is_suppressed(modes[i], kept, separation)) continue;
-    numbers.push_back(i);
-    kept.push_back(modes[i]);
-  }
-  return numbers;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < modes.size() && kept.size() < count; ++i)
+    if (!is_suppressed(modes[i], modes, kept, separation)) kept.push_back(i);
+  return kept;
 }
 
 double runner_up_density(const VoteSet& votes, const std::vector<double>& density,

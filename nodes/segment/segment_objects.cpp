@@ -8,7 +8,7 @@
 // subtracted from the densities, which equals voting anew without them. The score rests on what the
 // sensor measured, free space included (measure_fit.cpp), and on how many of the features that the
 // pose explains voted for it (ObjectSearch::consensus). Cost: per object `candidates` glances,
-// 100 neighbourhood queries and sketches and some 10 looks, and again for what is not found at
+// 80 neighbourhood queries and sketches and some 10 looks, and again for what is not found at
 // first; per instance five ICPs, and as many of twins. A scan without votes gives no detections;
 // that is no failure. Points without a normal are never matched. Known limit: an object of which
 // one flat side alone is seen scores low.

@@ -22,9 +22,9 @@ HWY_INLINE C level(F numerator, F denominator) {
   const hn::RebindToSigned<Floats> whole;
   const F u = hn::Div(numerator, denominator);
   const F v = hn::Div(hn::Mul(u, hn::Sub(hn::Set(d, 4), hn::Abs(u))), hn::Set(d, 3));
-  const F level = hn::Mul(hn::Add(v, hn::Set(d, 1)), hn::Set(d, 128));
-  return hn::BitCast(Codes(),
-                     hn::ConvertTo(whole, hn::Min(hn::Max(level, hn::Zero(d)), hn::Set(d, 255))));
+  const F level = hn::Mul(hn::Add(v, hn::Set(d, 1)), hn::Set(d, kLevels / 2));
+  return hn::BitCast(
+      Codes(), hn::ConvertTo(whole, hn::Min(hn::Max(level, hn::Zero(d)), hn::Set(d, kLevels - 1))));
 }
 
 void encode(const float* quaternions, std::size_t stride, std::size_t count, std::uint32_t* codes) {

@@ -8,14 +8,18 @@
 namespace posevote {
 namespace {
 
-/// Coefficients of the polynomial that equals f at Chebyshev's nodes of [0, end], where f is close
-/// to its best.
+/// Coefficients of the polynomial that equals f at 0 and at the rest of Chebyshev's nodes of an
+/// interval of which 0 is the first node, where it is close to the best that is exact at 0.
 template <std::size_t kCount, class F>
 std::array<double, kCount> interpolate(const F& f, double end) {
   std::array<double, kCount> nodes{}, newton{}, result{};
-  for (std::size_t i = 0; i < kCount; ++i) {
+  const auto node = [](std::size_t i) {
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(kCount);
-    nodes[i] = end / 2 * (1 + std::cos(std::numbers::pi * share));
+    return std::cos(std::numbers::pi * share);
+  };
+  const double first = node(kCount - 1);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    nodes[i] = end * (node(i) - first) / (1 - first);
     newton[i] = f(nodes[i]);
   }
   for (std::size_t order = 1; order < kCount; ++order)
@@ -40,20 +44,18 @@ Kernel make_kernel(Bandwidth bandwidth) {
   // e2 = |q|^2 + |q'|^2 - 2 <q, q'>, and the norms are 1 up to 1e-5 (is_usable).
   kernel.min_cosine = static_cast<float>(1 - chord * chord / 2 - 5e-5);
   kernel.per_dt2 = static_cast<float>(1 / (2 * sigma_t * sigma_t));
-  // Both are exact at 0: of (f - f(0)) / x a polynomial is made.
-  const auto angle = interpolate<3>(
+  const auto angle = interpolate<5>(
       [](double e2) {  // d_R^2 = 16 asin^2(e / 2)
         const double d = 4 * std::asin(std::sqrt(e2) / 2);
-        return (d * d / e2 - 4) / e2;
+        return d * d;
       },
       chord * chord);
-  kernel.angle[0] = static_cast<float>(4 / (2 * sigma_r * sigma_r));
-  for (std::size_t i = 0; i < 3; ++i)
-    kernel.angle[i + 1] = static_cast<float>(angle[i] / (2 * sigma_r * sigma_r));
-  const auto exponential = interpolate<5>([](double s) { return std::expm1(-s) / s; }, 1.001);
-  kernel.exponential[0] = static_cast<float>(kWeightUnits + kMantissa + 1);
-  for (std::size_t i = 0; i < 5; ++i)
-    kernel.exponential[i + 1] = static_cast<float>(exponential[i] * kWeightUnits);
+  for (std::size_t i = 0; i < 4; ++i)
+    kernel.angle[i] = static_cast<float>(angle[i + 1] / (2 * sigma_r * sigma_r));
+  const auto exponential = interpolate<6>([](double s) { return std::exp(-s); }, 1.001);
+  for (std::size_t i = 0; i < 6; ++i)
+    kernel.exponential[i] = static_cast<float>(exponential[i] * kWeightUnits);
+  kernel.exponential[0] += static_cast<float>(kMantissa + 1);
   return kernel;
 }
 

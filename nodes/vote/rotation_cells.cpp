@@ -7,18 +7,13 @@
 namespace posevote {
 namespace {
 
-constexpr int kLevels = 256;
-
 /// Monotone from [-1, 1] onto [-1, 1]; near to atan, so that cells are nearly equal in angle.
-template <class Real>
-Real warp(Real u) {
-  return u * (4 - std::abs(u)) / 3;
-}
+double warp(double u) { return u * (4 - std::abs(u)) / 3; }
 
-template <class Real>
-std::uint32_t level(Real v) {
-  constexpr Real kHalf = static_cast<Real>(kLevels) / 2;
-  return static_cast<std::uint32_t>(std::clamp(static_cast<int>((v + 1) * kHalf), 0, kLevels - 1));
+std::uint32_t level(double v) {
+  constexpr int kHighest = kLevels - 1;
+  return static_cast<std::uint32_t>(
+      std::clamp(static_cast<int>((v + 1) * kLevels / 2), 0, kHighest));
 }
 
 /// The ball of quaternions around p, as chart k sees it (see rotation_boxes).
@@ -55,9 +50,7 @@ class ChartView {
 }  // namespace
 
 RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth) {
-  // Members have chord^2 <= max_e2 up to float rounding, and norms of 1 up to 1e-5 (is_usable). So
-  // the cosine of the angle between the quaternions is at least 1 - max_e2 / 2 - 5e-5.
-  const double cosine = 1 - static_cast<double>(kernel.max_e2) / 2 - 5e-5;
+  const auto cosine = static_cast<double>(kernel.min_cosine);
   const double sine = std::sqrt(1 - cosine * cosine);
   // A quaternion of chart k has x_k >= 1/2 (up to its norm), hence lies within 60 deg of the axis
   // k.

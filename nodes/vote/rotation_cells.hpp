@@ -22,6 +22,7 @@ namespace posevote {
 using RotationCode = std::uint32_t;
 
 constexpr std::uint32_t kCharts = 4;
+constexpr int kLevels = 256;
 
 inline std::uint32_t chart_of(RotationCode code) { return code >> 24U; }
 

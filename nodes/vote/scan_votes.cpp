@@ -2,7 +2,7 @@
 // Compiled once per instruction set by Highway; the best is chosen when the program runs. Raw
 // pointers only: a type shared with code built for another instruction set must not be instantiated
 // here. The arithmetic mirrors kernel.hpp operation for operation, with Mul and Add and never a
-// fused MulAdd.
+// fused MulAdd; that is for looking alone, which decides nothing.
 #include "nodes/vote/scan_votes.hpp"
 
 #include <algorithm>
@@ -45,28 +45,6 @@ HWY_INLINE F squared_difference(F a, const float* b) {
   return hn::Mul(difference, difference);
 }
 
-/// Sums of weights, lane by lane.
-class Total {
- public:
-  HWY_INLINE Total() : lanes_(hn::Zero(Units())) {}
-
-  HWY_INLINE void add(U weights) { lanes_ = hn::Add(lanes_, weights); }
-
-  /// To be called after kMostWeights.
-  HWY_INLINE void spill() {
-    HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
-    hn::Store(lanes_, Units(), lanes);
-    for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) value_ += lanes[i];
-    lanes_ = hn::Zero(Units());
-  }
-
-  HWY_INLINE std::uint64_t value() const { return value_; }
-
- private:
-  U lanes_;
-  std::uint64_t value_ = 0;
-};
-
 /// A vector with votes whose rotations may be near, and masks of its lanes.
 struct Found {
   std::uint32_t first;
@@ -97,7 +75,6 @@ class Query {
     const Floats d;
     const std::size_t lanes = hn::Lanes(d);
     const float *w = c[3], *x = c[4], *y = c[5], *z = c[6];
-    const std::size_t begin = range.begin / lanes * lanes;
     const auto look = [&](std::size_t i, hn::Mask<Floats> in_range) HWY_ATTR {
       F sum = hn::Mul(qw_, hn::LoadU(d, w + i));
       sum = hn::MulAdd(qx_, hn::LoadU(d, x + i), sum);
@@ -108,7 +85,7 @@ class Query {
       hn::StoreMaskBits(d, hn::Lt(sum, hn::Zero(d)), found->negative);
       found += !hn::AllFalse(d, hn::Ge(hn::Abs(sum), min_cosine_));
     };
-    std::size_t i = begin;
+    std::size_t i = range.begin / lanes * lanes;
     const std::size_t end = range.end;
     look(i, hn::AndNot(hn::FirstN(d, range.begin - i), hn::FirstN(d, std::min(lanes, end - i))));
     for (i += lanes; i + lanes <= end; i += lanes) look(i, hn::FirstN(d, lanes));
@@ -136,22 +113,23 @@ class Query {
   F tx_, ty_, tz_, qw_, qx_, qy_, qz_, min_cosine_, max_dt2_, max_e2_;
 };
 
+/// Of at most kMostWeights vectors.
 template <bool kBack>
 HWY_INLINE std::uint64_t weigh(const Kernel& kernel, const VoteColumns& columns, const Query& query,
                                const Found* found, std::size_t size, std::uint32_t* back) {
   const Units units;
-  Total total;
-  for (std::size_t begin = 0; begin < size; begin += kMostWeights) {
-    const std::size_t end = std::min<std::size_t>(size, begin + kMostWeights);
-    for (std::size_t k = begin; k < end; ++k) {
-      const U weights = query.weights(kernel, columns, found[k]);
-      total.add(weights);
-      std::uint32_t* here = back + found[k].first;
-      if (kBack) hn::StoreU(hn::Add(hn::LoadU(units, here), weights), units, here);
-    }
-    total.spill();
+  U total = hn::Zero(units);
+  for (const Found* one = found; one < found + size; ++one) {
+    const U weights = query.weights(kernel, columns, *one);
+    total = hn::Add(total, weights);
+    std::uint32_t* here = back + one->first;
+    if (kBack) hn::StoreU(hn::Add(hn::LoadU(units, here), weights), units, here);
   }
-  return total.value();
+  HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
+  hn::Store(total, units, lanes);
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < hn::Lanes(units); ++i) sum += lanes[i];
+  return sum;
 }
 
 template <bool kBack>
@@ -160,6 +138,7 @@ HWY_INLINE std::uint64_t scan_ranges(const Kernel& kernel, const VoteColumns& co
                                      std::size_t range_count, std::uint32_t* back) {
   constexpr std::size_t kRoom = 128;  // vectors
   Found found[2 * kRoom + 2];  // a range that begins within a vector has one more; one is free
+  static_assert(2 * kRoom + 1 <= kMostWeights);
   const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
   const Query query(kernel, point);
   std::size_t size = 0;

@@ -27,7 +27,7 @@ struct IndexRange {
   std::uint32_t begin = 0, end = 0;
 };
 
-/// The most scans that may add to `back` before it is emptied.
+/// Whose sum 32 bits hold: so many scans may add to `back` before it is emptied.
 constexpr std::uint32_t kMostWeights = 1023;
 
 /// The sum over all votes of the ranges of their weights at the query, in units. Equals

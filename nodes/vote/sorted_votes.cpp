@@ -12,9 +12,6 @@
 namespace posevote {
 namespace {
 
-/// For votes that are far apart.
-__extension__ using LargeNumber = unsigned __int128;
-
 /// A vote and the number of its cell, which counts along z, then y, then x.
 template <class Number>
 struct Member {
@@ -43,24 +40,6 @@ CellRange range_of(const std::vector<TranslationCell>& cells,
   return range;
 }
 
-template <class Number>
-void sort_by_cell(const std::vector<TranslationCell>& cells, const CellRange& range,
-                  std::vector<std::uint32_t>& votes) {
-  std::vector<Member<Number>> members(votes.size());
-  graph::parallel_for(votes.size(), 4096, [&](std::size_t i) {
-    Number number = 0;
-    for (const auto axis : kAxes)
-      number = number * static_cast<Number>(range.count(axis)) +
-               static_cast<Number>(std::int64_t{cells[votes[i]].*axis} - range.low.*axis);
-    members[i] = {number, votes[i]};
-  });
-  for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 32)
-    radix_sort(members, [shift](const Member<Number>& one) {
-      return static_cast<std::uint32_t>(one.cell >> shift);
-    });
-  for (std::size_t i = 0; i < votes.size(); ++i) votes[i] = members[i].vote;
-}
-
 void open_cell(SortedVotes& sorted, const TranslationCell& cell, std::size_t first) {
   sorted.cells.push_back(cell);
   sorted.cell_begin.push_back(static_cast<std::uint32_t>(first));
@@ -80,10 +59,7 @@ void sort_by_cell(const std::vector<TranslationCell>& cells, const CellRange& ra
              static_cast<Number>(std::int64_t{cells[vote].*axis} - range.low.*axis);
     members[i] = {cell, vote};
   });
-  for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 32)
-    radix_sort(members, [shift](const Member<Number>& one) {
-      return static_cast<std::uint32_t>(one.cell >> shift);
-    });
+  radix_sort(members, [](const Member<Number>& one) { return one.cell; });
   for (std::size_t i = 0; i < members.size(); ++i) {
     sorted.numbers[i] = members[i].vote;
     if (i == 0 || members[i].cell != members[i - 1].cell)
