@@ -2,7 +2,6 @@
 // Which two rows are nearest: the one rule that all ways of searching share.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -23,16 +22,6 @@ inline float squared_ratio(const TwoNearest& nearest) {
   return ratio <= 1 ? ratio : 1;
 }
 
-/// The squared distance that decides: summed in double, in ascending order of the columns.
-inline double squared_distance(const float* a, const float* b, Eigen::Index dimension) {
-  double sum = 0;
-  for (Eigen::Index k = 0; k < dimension; ++k) {
-    const double difference = static_cast<double>(a[k]) - static_cast<double>(b[k]);
-    sum += difference * difference;
-  }
-  return sum;
-}
-
 /// The best two of the rows that were offered, in whatever order; each row once.
 class BestTwo {
  public:
@@ -45,6 +34,9 @@ class BestTwo {
       row_[1] = row;
     }
   }
+  /// Squared distance of the second best; infinity as long as there is none.
+  double second_squared() const { return squared_[1]; }
+
   TwoNearest result() const {
     const int second = row_[1] != kNone ? 1 : 0;
     return {{row_[0], row_[second]},

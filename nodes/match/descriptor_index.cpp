@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "graph/parallel.hpp"
-#include "nodes/match/brute_force.hpp"
+#include "nodes/match/descriptor_kernels.hpp"
+#include "nodes/match/exact_index.hpp"
 
 namespace posevote {
 namespace {
@@ -101,16 +102,17 @@ std::unique_ptr<FlannIndex> build_flann(const DescriptorMatrix& rows, const Inde
 /// The rows of one descriptor, and how they are searched.
 class BlockIndex {
  public:
-  BlockIndex(DescriptorMatrix rows, const IndexOptions& options)
-      : options_(options), rows_(std::move(rows)) {
-    if (options.search == "exact")
-      brute_force_ = std::make_unique<BruteForce>(rows_);
-    else
+  BlockIndex(DescriptorMatrix rows, const IndexOptions& options) : options_(options) {
+    if (options.search == "exact") {
+      exact_ = std::make_unique<ExactIndex>(std::move(rows));
+    } else {
+      rows_ = std::move(rows);
       flann_ = build_flann(rows_, options);
+    }
   }
 
   std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries) const {
-    if (brute_force_) return brute_force_->nearest_two(queries);
+    if (exact_) return exact_->nearest_two(queries);
     std::vector<TwoNearest> nearest(static_cast<std::size_t>(queries.rows()));
     graph::parallel_for(nearest.size(), 16, [&](std::size_t query) {
       nearest[query] = search_flann(queries, static_cast<Eigen::Index>(query));
@@ -122,9 +124,9 @@ class BlockIndex {
   TwoNearest search_flann(const DescriptorMatrix& queries, Eigen::Index query) const;
 
   IndexOptions options_;
-  DescriptorMatrix rows_;                    ///< FLANN keeps a pointer to them
-  std::unique_ptr<BruteForce> brute_force_;  ///< either this
-  std::unique_ptr<FlannIndex> flann_;        ///< or this
+  std::unique_ptr<ExactIndex> exact_;  ///< either this
+  DescriptorMatrix rows_;              ///< or these, to which FLANN keeps a pointer
+  std::unique_ptr<FlannIndex> flann_;
 };
 
 TwoNearest BlockIndex::search_flann(const DescriptorMatrix& queries, Eigen::Index query) const {
@@ -142,7 +144,7 @@ TwoNearest BlockIndex::search_flann(const DescriptorMatrix& queries, Eigen::Inde
   BestTwo best;
   for (const std::size_t row : found[0])
     best.offer(squared_distance(&queries(query, 0), &rows_(static_cast<Eigen::Index>(row), 0),
-                                rows_.cols()),
+                                static_cast<std::size_t>(rows_.cols())),
                static_cast<std::uint32_t>(row));
   return best.result();
 }

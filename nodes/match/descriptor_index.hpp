@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The index that matching searches: the descriptors of all models, stacked.
 //
-//   exact        blocked brute force on the processor's vector units (brute_force.hpp)
+//   exact        short descriptors on the processor's vector units (exact_index.hpp)
 //   kd_tree      FLANN's KDTreeSingleIndex; the same answer, slower at the lengths we use
 //   approximate  FLANN's KDTreeIndex, a forest of randomised trees (the paper's choice). FLANN
 //   shuffles

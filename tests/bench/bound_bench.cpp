@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "nodes/describe/point_pair_sums.hpp"
-#include "nodes/match/dot_products.hpp"
+#include "nodes/match/descriptor_kernels.hpp"
 #include "nodes/prepare/plane_moments.hpp"
 #include "nodes/vote/scan_votes.hpp"
 #include "nodes/vote/vote_table.hpp"
@@ -113,16 +113,18 @@ void inner_votes(benchmark::State& state) {
   report(state, kItems, 44);
 }
 
-void inner_dot_products(benchmark::State& state) {
-  constexpr std::size_t kDimension = 240;
+void inner_scores(benchmark::State& state) {
+  constexpr std::size_t kDimension = 48;
   const auto queries = numbers(kTileQueries * kDimension, 1);
   const hwy::AlignedFreeUniquePtr<float[]> panel =
       hwy::AllocateAligned<float>(kPanelRows * kDimension);
   std::fill_n(panel.get(), kPanelRows * kDimension, 0.5F);
-  std::vector<float> products(kTileQueries * kPanelRows);
+  const std::vector<float> half_norms(kPanelRows, 1);
+  std::vector<float> scores(kTileQueries * kPanelRows);
   for (auto _ : state) {
-    multiply_panel(queries.data(), panel.get(), kDimension, products.data(), kPanelRows);
-    benchmark::DoNotOptimize(products.data());
+    score_panel(queries.data(), panel.get(), kDimension, half_norms.data(), scores.data(),
+                kPanelRows);
+    benchmark::DoNotOptimize(scores.data());
   }
   // A fused multiply-add counts as one, as the machine takes it.
   report(state, static_cast<double>(kTileQueries * kPanelRows), kDimension);
@@ -133,7 +135,7 @@ BENCHMARK(machine_read)->Arg(16 << 10)->Arg(512 << 10)->Arg(256 << 20);
 BENCHMARK(inner_plane_moments);
 BENCHMARK(inner_point_pairs);
 BENCHMARK(inner_votes);
-BENCHMARK(inner_dot_products);
+BENCHMARK(inner_scores);
 
 }  // namespace
 }  // namespace posevote

@@ -2,8 +2,13 @@
 #include "nodes/match/descriptor_index.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
+
+#include "nodes/match/descriptor_kernels.hpp"
+#include "nodes/match/principal_axes.hpp"
+#include "tests/support/instruction_set.hpp"
 
 using namespace posevote;
 
@@ -14,6 +19,12 @@ DescriptorMatrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned
   DescriptorMatrix matrix(rows, columns);
   for (float& value : matrix.reshaped()) value = static_cast<float>(random()) / 4294967296.0F;
   return matrix;
+}
+
+/// Rows of which six axes hold nearly all, as descriptors of surfaces are.
+DescriptorMatrix flat_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  return random_matrix(rows, 6, seed) * random_matrix(6, columns, 99) +
+         0.1F * random_matrix(rows, columns, seed + 1000);
 }
 
 /// The definition: smallest distance in double, of equals the smallest row.
@@ -57,6 +68,80 @@ TEST_CASE("exact search equals the definition at every size", "[match]") {
         CHECK(mistakes(random_matrix(rows, columns, 1), random_matrix(97, columns, 2), search) ==
               0);
       }
+}
+
+TEST_CASE("exact search of short descriptors equals the definition", "[match]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  for (const Eigen::Index rows : {2, 70, 2500}) {
+    INFO(rows);
+    const DescriptorMatrix all = flat_matrix(rows, 150, 1);
+    DescriptorMatrix queries = flat_matrix(100, 150, 2);
+    CHECK(PrincipalAxes(all).length() < 75);
+    queries.topRows(50) = random_matrix(50, 150, 7);  // unlike the rows
+    queries.row(50) = all.row(1);                     // one of the rows
+    queries.row(51).setZero();
+    queries.row(52) *= 1e6F;
+    CHECK(mistakes(all, queries, "exact") == 0);
+    CHECK(mistakes(1e-20F * all, 1e-20F * queries, "exact") == 0);
+    CHECK(mistakes(1e30F * all, 1e30F * queries, "exact") == 0);
+    CHECK(mistakes(all.array() + 1000, queries.array() + 1000, "exact") == 0);
+  }
+  const DescriptorMatrix same = random_matrix(1, 150, 1).replicate(100, 1);
+  CHECK(mistakes(same, flat_matrix(20, 150, 2), "exact") == 0);
+}
+
+TEST_CASE("short descriptors lie no farther apart than long ones", "[match]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  const DescriptorMatrix rows = flat_matrix(400, 150, 1);
+  DescriptorMatrix queries = flat_matrix(30, 150, 2);
+  queries.topRows(10) = random_matrix(10, 150, 7);
+  const PrincipalAxes axes(rows);
+  REQUIRE(axes.length() < 75);
+  const DescriptorMatrix a = axes.shorten(rows, 0, 400), b = axes.shorten(queries, 0, 30);
+  CHECK(axes.shorten(rows, 123, 7) == a.middleRows(123, 7));
+  double most = 0;
+  for (Eigen::Index i = 0; i < 400; ++i)
+    for (Eigen::Index k = 0; k < 30; ++k) {
+      const float length = a.row(i).norm() + b.row(k).norm();
+      const float brief = (a.row(i) - b.row(k)).norm(),
+                  whole = (rows.row(i) - queries.row(k)).norm();
+      REQUIRE(brief <= whole + PrincipalAxes::kMoves * length);
+      most = std::max(most, static_cast<double>(brief / whole));
+    }
+  CHECK(most > 0.9);  // and not much nearer
+}
+
+TEST_CASE("the kernels of exact search keep what is not a number", "[match]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  const float inf = std::numeric_limits<float>::infinity();
+  std::vector<float> scores(100, 5);
+  scores[7] = 1;
+  scores[99] = 2;
+  std::vector<std::uint32_t> found(200);
+  CHECK(second_lowest(scores.data(), 100) == 2);
+  CHECK(second_lowest(scores.data(), 99) == 5);
+  CHECK(second_lowest(scores.data() + 7, 1) == inf);
+  CHECK(find_low(scores.data(), 99, 2, found.data()) == 1);
+  CHECK(find_low(scores.data(), 100, 2, found.data()) == 2);
+  CHECK(found[1] == 99);
+  scores[50] = std::numeric_limits<float>::quiet_NaN();
+  CHECK(std::isnan(second_lowest(scores.data(), 100)));
+  CHECK(find_low(scores.data(), 100, 2, found.data()) == 3);
+  CHECK(found[1] == 50);
+  CHECK(find_low(scores.data(), 37, scores[50], found.data()) == 37);
+}
+
+TEST_CASE("distances have the same bits on every instruction set", "[match]") {
+  const DescriptorMatrix rows = random_matrix(2, 249, 1);
+  const double best = squared_distance(rows.data(), rows.data() + 249, 249);
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  CHECK(squared_distance(rows.data(), rows.data() + 249, 249) == best);
+  CHECK(best == Approx((rows.row(0) - rows.row(1)).squaredNorm()));
+  CHECK(squared_distance(rows.data(), rows.data() + 249, 0) == 0);
 }
 
 TEST_CASE("of equally near rows the smaller comes first", "[match]") {
