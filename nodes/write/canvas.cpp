@@ -49,12 +49,30 @@ const Glyph* find_glyph(char letter) {
   return found == std::end(kFont) ? nullptr : found;
 }
 
-std::array<std::uint8_t, 3> to_bytes(const Colour& colour) {
-  std::array<std::uint8_t, 3> bytes{};
-  for (std::size_t k = 0; k < 3; ++k)
-    bytes[k] = static_cast<std::uint8_t>(
-        std::lround(255 * std::clamp(colour(static_cast<int>(k)), 0.0F, 1.0F)));
-  return bytes;
+std::uint32_t to_pixel(const Colour& colour) {
+  std::uint32_t pixel = 0;
+  for (int k = 2; k >= 0; --k)
+    pixel = pixel << 8 |
+            static_cast<std::uint32_t>(std::lround(255 * std::clamp(colour(k), 0.0F, 1.0F)));
+  return pixel;
+}
+
+/// Places left and right of the center that a row of a disc covers.
+struct Span {
+  int first = 0, last = -1;
+};
+
+/// Inside of a disc is dx^2 + dy^2 + (tilt . (dx, dy))^2 <= radius^2.
+Span row_of(const Disc& disc, float radius, float dy) {
+  const float tx = disc.tilt.x(), ty = disc.tilt.y();
+  const float a = 1 + tx * tx;
+  const float b = tx * ty * dy;
+  const float c = dy * dy * (1 + ty * ty) - radius * radius;
+  const float root = b * b - a * c;
+  if (!(root >= 0)) return {};
+  const float half = std::sqrt(root);
+  return {static_cast<int>(std::ceil((-b - half) / a)),
+          static_cast<int>(std::floor((-b + half) / a))};
 }
 
 }  // namespace
@@ -62,8 +80,8 @@ std::array<std::uint8_t, 3> to_bytes(const Colour& colour) {
 Canvas::Canvas(int width, int height, const Colour& background)
     : width_(width),
       height_(height),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3),
-      depth_(pixels_.size() / 3, std::numeric_limits<float>::infinity()) {
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      depth_(pixels_.size(), std::numeric_limits<float>::infinity()) {
   fill(0, 0, width, height, background);
 }
 
@@ -73,49 +91,54 @@ std::size_t Canvas::index(int row, int column) const {
 }
 
 void Canvas::fill(int x, int y, int width, int height, const Colour& colour) {
-  const std::array<std::uint8_t, 3> bytes = to_bytes(colour);
+  const std::uint32_t pixel = to_pixel(colour);
+  const int first = std::max(0, x), last = std::min(width_, x + width);
   for (int row = std::max(0, y); row < std::min(height_, y + height); ++row)
-    for (int column = std::max(0, x); column < std::min(width_, x + width); ++column) {
-      const std::size_t at = 3 * index(row, column);
-      std::copy(bytes.begin(), bytes.end(), pixels_.begin() + static_cast<long>(at));
-    }
+    for (int column = first; column < last; ++column) pixels_[index(row, column)] = pixel;
 }
 
 void Canvas::draw(const Disc& disc, const Colour& colour) {
   constexpr float kMost = 40;
-  if (!(std::abs(disc.x) < 1e6F) || !(std::abs(disc.y) < 1e6F) || !(disc.radius >= 0)) return;
-  const std::array<std::uint8_t, 3> bytes = to_bytes(colour);
+  const float farthest = std::max(std::abs(disc.x), std::abs(disc.y));
+  if (!(farthest < 1e6F) || !(disc.radius >= 0) || !(disc.tilt.norm() <= 1e3F)) return;
+  const std::uint32_t pixel = to_pixel(colour);
   const float radius = std::min(disc.radius, kMost);
   const int reach = static_cast<int>(radius);
   const int center_x = static_cast<int>(std::lround(disc.x));
   const int center_y = static_cast<int>(std::lround(disc.y));
-  const int first = std::max(-reach, -center_x), last = std::min(reach, width_ - 1 - center_x);
-  for (int row = std::max(0, center_y - reach); row <= std::min(height_ - 1, center_y + reach);
-       ++row) {
+  const int last_row = std::min(height_ - 1, center_y + reach);
+  for (int row = std::max(0, center_y - reach); row <= last_row; ++row) {
     const auto dy = static_cast<float>(row - center_y);
-    for (int offset = first; offset <= last; ++offset) {
-      const auto dx = static_cast<float>(offset);
-      const float gain = disc.tilt.x() * dx + disc.tilt.y() * dy;  // dx = dy = 0 is always inside
-      if (dx * dx + dy * dy + gain * gain > radius * radius) continue;
-      const std::size_t at = index(row, center_x + offset);
-      const float depth = disc.depth + gain * disc.pixel;
-      if (!(depth < depth_[at])) continue;
-      depth_[at] = depth;
-      std::copy(bytes.begin(), bytes.end(), pixels_.begin() + static_cast<long>(3 * at));
+    const Span span = row_of(disc, radius, dy);
+    const int first = std::max(span.first, -center_x);
+    const int count = std::min(span.last, width_ - 1 - center_x) - first + 1;
+    if (count <= 0) continue;
+    float* depths = &depth_[index(row, center_x + first)];
+    std::uint32_t* pixels = &pixels_[index(row, center_x + first)];
+    const float slope = disc.tilt.x() * disc.pixel;
+    const float start = disc.depth + disc.tilt.y() * dy * disc.pixel;
+    for (int i = 0; i < count; ++i) {
+      const float depth = start + slope * static_cast<float>(first + i);
+      const bool nearer = depth < depths[i];
+      depths[i] = nearer ? depth : depths[i];
+      pixels[i] = nearer ? pixel : pixels[i];
     }
   }
 }
 
 Canvas Canvas::halved() const {
+  constexpr std::uint32_t kOuter = 0x00FF00FF, kGreen = 0x0000FF00;
   Canvas half(width_ / 2, height_ / 2, Colour::Zero());
-  const auto row_bytes = static_cast<std::size_t>(width_) * 3;
-  const auto half_bytes = static_cast<std::size_t>(half.width_) * 3;
-  for (std::size_t row = 0; row < static_cast<std::size_t>(half.height_); ++row)
-    for (std::size_t i = 0; i < half_bytes; ++i) {
-      const std::size_t at = 2 * row * row_bytes + i / 3 * 6 + i % 3;
-      const int sum =
-          pixels_[at] + pixels_[at + 3] + pixels_[at + row_bytes] + pixels_[at + row_bytes + 3];
-      half.pixels_[row * half_bytes + i] = static_cast<std::uint8_t>((sum + 2) / 4);
+  for (int row = 0; row < half.height_; ++row)
+    for (int column = 0; column < half.width_; ++column) {
+      const std::uint32_t* above = &pixels_[index(2 * row, 2 * column)];
+      const std::uint32_t* below = &pixels_[index(2 * row + 1, 2 * column)];
+      const auto mean = [&](std::uint32_t mask, std::uint32_t round) {
+        const std::uint32_t sum =
+            (above[0] & mask) + (above[1] & mask) + (below[0] & mask) + (below[1] & mask);
+        return (sum + round) / 4 & mask;
+      };
+      half.pixels_[half.index(row, column)] = mean(kOuter, 0x00020002) | mean(kGreen, 0x00000200);
     }
   return half;
 }
@@ -141,8 +164,14 @@ void Canvas::save(const std::filesystem::path& png) const {
   image.width = static_cast<png_uint_32>(width_);
   image.height = static_cast<png_uint_32>(height_);
   image.format = PNG_FORMAT_RGB;
+  image.flags = PNG_IMAGE_FLAG_FAST;  // a tenth larger, much faster
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * pixels_.size());
+  for (const std::uint32_t pixel : pixels_)
+    for (int shift = 0; shift < 24; shift += 8)
+      bytes.push_back(static_cast<std::uint8_t>(pixel >> shift));
   std::string problem;
-  if (png_image_write_to_file(&image, temporary.c_str(), 0, pixels_.data(), 0, nullptr) == 0)
+  if (png_image_write_to_file(&image, temporary.c_str(), 0, bytes.data(), 0, nullptr) == 0)
     problem = image.message;
   std::error_code error;
   if (problem.empty()) std::filesystem::rename(temporary, png, error);

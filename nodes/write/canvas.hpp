@@ -27,7 +27,7 @@ class Canvas {
   Canvas(int width, int height, const Colour& background);
 
   /// Draws where nothing nearer has been drawn: at least the disc's center, at most 40 pixels
-  /// around.
+  /// around. Discs that are not finite, or tilted beyond 1000, are left out.
   void draw(const Disc& disc, const Colour& colour);
 
   /// The same picture at half the size, each pixel the mean of four: smooth edges.
@@ -48,7 +48,7 @@ class Canvas {
 
   int width_;
   int height_;
-  std::vector<std::uint8_t> pixels_;  ///< height x width x 3
+  std::vector<std::uint32_t> pixels_;  ///< height x width; red in the lowest byte
   std::vector<float> depth_;
 };
 
