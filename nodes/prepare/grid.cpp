@@ -44,8 +44,7 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
     entries.push_back(
         {key_of(row(points(i, 1), low.y()), row(points(i, 2), low.z())), points(i, 0), i});
   radix_sort(entries, [](const Entry& one) { return ordered_bits(one.x); });
-  radix_sort(entries, [](const Entry& one) { return static_cast<std::uint32_t>(one.key); });
-  radix_sort(entries, [](const Entry& one) { return static_cast<std::uint32_t>(one.key >> 32); });
+  radix_sort(entries, [](const Entry& one) { return one.key; });
 
   std::size_t rods = 0;
   for (std::size_t i = 0; i < entries.size(); ++i)

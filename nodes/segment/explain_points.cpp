@@ -34,11 +34,14 @@ std::vector<char> explain_points(const Cloud& model, const PointGrid& model_grid
         T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
     // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
     // one.
-    bool near = false;
-    model_grid.for_each_within(point, distance, [&](std::uint32_t neighbour, float) {
-      near = near || model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
-    });
-    explained[i] = static_cast<char>(near);
+    for (const float reach : {0.5F * distance, distance}) {  // most that have one have it close by
+      bool near = false;
+      model_grid.for_each_within(point, reach, [&](std::uint32_t neighbour, float) {
+        near = near || model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
+      });
+      explained[i] = static_cast<char>(near);
+      if (near) return;
+    }
   });
   return explained;
 }

@@ -79,12 +79,15 @@ std::vector<WeightedVote> PoseIndex::neighbours(const Eigen::Vector3f& center,
   if (!is_usable(pose, sorted.bandwidth)) return found;
   const Kernel kernel = make_kernel(sorted.bandwidth);
   CellSearch search(sorted);
-  for (const IndexRange& range : search.around(translation_cell(pose, sorted.bandwidth)))
-    for (std::uint32_t i = range.begin; i < range.end; ++i)
-      if (const std::uint32_t units = kernel_units(kernel, pose, sorted.votes.at(i)))
-        found.push_back({sorted.numbers[i], static_cast<float>(units) / kWeightUnits});
-  std::sort(found.begin(), found.end(),
-            [](const WeightedVote& a, const WeightedVote& b) { return a.vote < b.vote; });
+  std::vector<std::uint32_t> places, weights;
+  for (const IndexRange& range : search.around(translation_cell(pose, sorted.bandwidth))) {
+    places.resize(std::max(places.size(), range.end - range.begin + kScanPadding));
+    weights.resize(places.size());
+    const std::size_t count =
+        collect_near(kernel, sorted.votes.columns(), pose, range, places.data(), weights.data());
+    for (std::size_t i = 0; i < count; ++i)
+      found.push_back({sorted.numbers[places[i]], static_cast<float>(weights[i]) / kWeightUnits});
+  }
   return found;
 }
 

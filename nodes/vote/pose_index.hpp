@@ -6,7 +6,7 @@
 // translations with a k-d tree and tests the rotations one by one; on a real scan some 80 times
 // more votes pass the first test than the second, so this index sorts votes by both. It prunes, it
 // never approximates: membership is decided by one float32 predicate (`kernel.hpp`), and every
-// weight is a multiple of 2^-25, so sums in double are exact and do not depend on their order.
+// weight is a multiple of 2^-22, so sums in double are exact and do not depend on their order.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -45,8 +45,8 @@ class PoseIndex {
   void subtract(const std::vector<std::uint32_t>& removed, const std::vector<char>& alive,
                 std::vector<double>& density) const;
 
-  /// The votes in the neighbourhood of any pose, in ascending order of vote. The pose's translation
-  /// is where the model's centre lands, as in VoteSet.
+  /// The votes in the neighbourhood of any pose, in an order that the votes decide alone. The
+  /// pose's translation is where the model's centre lands, as in VoteSet.
   std::vector<WeightedVote> neighbours(const Eigen::Vector3f& center,
                                        const Eigen::Quaternionf& rotation) const;
 

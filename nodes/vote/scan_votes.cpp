@@ -113,6 +113,10 @@ class Query {
   F tx_, ty_, tz_, qw_, qx_, qy_, qz_, min_cosine_, max_dt2_, max_e2_;
 };
 
+/// Most vectors that find_near is asked for at a time, but for one that a range may have more as it
+/// begins within a vector.
+constexpr std::size_t kRoom = 128;
+
 /// Of at most kMostWeights vectors.
 template <bool kBack>
 HWY_INLINE std::uint64_t weigh(const Kernel& kernel, const VoteColumns& columns, const Query& query,
@@ -136,8 +140,7 @@ template <bool kBack>
 HWY_INLINE std::uint64_t scan_ranges(const Kernel& kernel, const VoteColumns& columns,
                                      const VotePoint& point, const IndexRange* ranges,
                                      std::size_t range_count, std::uint32_t* back) {
-  constexpr std::size_t kRoom = 128;  // vectors
-  Found found[2 * kRoom + 2];  // a range that begins within a vector has one more; one is free
+  Found found[2 * kRoom + 2];  // one is free
   static_assert(2 * kRoom + 1 <= kMostWeights);
   const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
   const Query query(kernel, point);
@@ -160,6 +163,29 @@ std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VoteP
                    const IndexRange* ranges, std::size_t range_count, std::uint32_t* back) {
   return back == nullptr ? scan_ranges<false>(kernel, columns, point, ranges, range_count, back)
                          : scan_ranges<true>(kernel, columns, point, ranges, range_count, back);
+}
+
+std::size_t collect(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
+                    IndexRange range, std::uint32_t* numbers, std::uint32_t* weights) {
+  const Units units;
+  const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
+  const Query query(kernel, point);
+  const U lane = hn::Iota(units, 0);
+  Found found[kRoom + 2];
+  std::size_t count = 0;
+  for (IndexRange part = range; part.begin < range.end; part.begin = part.end) {
+    part.end = std::min(range.end - part.begin, step) + part.begin;
+    const Found* end = query.find_near(columns, part, found);
+    for (const Found* one = found; one < end; ++one) {
+      const U weight = query.weights(kernel, columns, *one);
+      const auto near = hn::Ne(weight, hn::Zero(units));
+      const U number = hn::Add(lane, hn::Set(units, one->first));
+      hn::StoreU(hn::Compress(number, near), units, numbers + count);
+      hn::StoreU(hn::Compress(weight, near), units, weights + count);
+      count += hn::CountTrue(units, near);
+    }
+  }
+  return count;
 }
 
 /// The squared distance of a coordinate from an interval. Never above that from any number inside:
@@ -205,11 +231,17 @@ HWY_AFTER_NAMESPACE();
 namespace posevote {
 
 HWY_EXPORT(scan);
+HWY_EXPORT(collect);
 HWY_EXPORT(copy);
 
 std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
                          const IndexRange* ranges, std::size_t range_count, std::uint32_t* back) {
   return HWY_DYNAMIC_DISPATCH(scan)(kernel, columns, query, ranges, range_count, back);
+}
+
+std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
+                         IndexRange range, std::uint32_t* numbers, std::uint32_t* weights) {
+  return HWY_DYNAMIC_DISPATCH(collect)(kernel, columns, query, range, numbers, weights);
 }
 
 std::size_t copy_near(const Kernel& kernel, const VoteColumns& columns, IndexRange range,

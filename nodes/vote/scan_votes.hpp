@@ -37,6 +37,11 @@ constexpr std::uint32_t kMostWeights = 1023;
 std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
                          const IndexRange* ranges, std::size_t range_count, std::uint32_t* back);
 
+/// Writes the places of the range's votes that are neighbours of the query, ascending, and their
+/// weights in units; returns how many. Both have room for all and kScanPadding more.
+std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
+                         IndexRange range, std::uint32_t* numbers, std::uint32_t* weights);
+
 /// Bounding box of translations.
 struct VoteBox {
   float low[3], high[3];
