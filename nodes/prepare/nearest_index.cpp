@@ -74,9 +74,8 @@ std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
 
 NearestIndex::Cube NearestIndex::cube_of(const Eigen::Vector3d& point) const {
   const auto place = [this, &point](int axis) {
-    const double at = std::clamp(point[axis] * per_edge_, -kFarthest, kFarthest);
-    const auto toward_zero = static_cast<std::int64_t>(at);
-    return toward_zero - (at < static_cast<double>(toward_zero));
+    const double cube = std::floor(point[axis] * per_edge_);
+    return static_cast<std::int64_t>(std::clamp(cube, -kFarthest, kFarthest));
   };
   return {place(0), place(1), place(2)};
 }
@@ -104,31 +103,16 @@ std::uint32_t NearestIndex::claim(std::uint64_t key) {
   return blocks_ - 1;
 }
 
-/// Calls visit for the places from first to last, the one that is nearest to `middle` first, then
-/// outward.
-template <class Visit>
-void visit_outward(std::int64_t first, std::int64_t last, std::int64_t middle, const Visit& visit) {
-  const std::int64_t begin = std::clamp(middle, first, last);
-  visit(begin);
-  for (std::int64_t away = 1; begin - away >= first || begin + away <= last; ++away) {
-    if (begin - away >= first) visit(begin - away);
-    if (begin + away <= last) visit(begin + away);
-  }
-}
-
-/// The search for the point nearest to one place. From the cube of the place outward: what lies
-/// farther than the nearest so far needs no look.
+/// The search for the point nearest to one place.
 class NearestIndex::Search {
  public:
   Search(const NearestIndex& index, const Eigen::Vector3f& center, float distance,
          const std::vector<char>& hidden)
       : index_(index), hidden_(hidden), center_(center), farthest_(distance * distance) {
-    const Eigen::Vector3d middle = center.cast<double>();
-    middle_ = index.cube_of(middle);
     // A trifle wider than the ball: only the distance decides who is in.
     const double reach = 1.000001 * static_cast<double>(distance);
-    low_ = index.cube_of(middle.array() - reach);
-    high_ = index.cube_of(middle.array() + reach);
+    low_ = index.cube_of(center.cast<double>() - Eigen::Vector3d::Constant(reach));
+    high_ = index.cube_of(center.cast<double>() + Eigen::Vector3d::Constant(reach));
   }
 
   std::optional<Neighbour> run() {
@@ -139,49 +123,25 @@ class NearestIndex::Search {
       look(0, index_.points_.size());
       return best_;
     }
-    visit_blocks(0, [&](std::int64_t x) {
-      visit_blocks(1, [&](std::int64_t y) {
-        visit_blocks(2, [&](std::int64_t z) { look_in({x, y, z}); });
-      });
-    });
+    for (std::int64_t x = low_[0] >> kShift; x <= high_[0] >> kShift; ++x)
+      for (std::int64_t y = low_[1] >> kShift; y <= high_[1] >> kShift; ++y)
+        for (std::int64_t z = low_[2] >> kShift; z <= high_[2] >> kShift; ++z) look_in(x, y, z);
     return best_;
   }
 
  private:
-  template <class Visit>
-  void visit_blocks(std::size_t axis, const Visit& visit) const {
-    visit_outward(low_[axis] >> kShift, high_[axis] >> kShift, middle_[axis] >> kShift, visit);
-  }
-
-  /// Squared distance along one axis to a cube; never above that to a point in it.
-  float gap(std::size_t axis, std::int64_t place) const {
-    if (place == middle_[axis]) return 0;
-    const auto side = static_cast<double>(place + (place < middle_[axis]));
-    const double at = static_cast<double>(center_[static_cast<Eigen::Index>(axis)]);
-    const double distance = side / index_.per_edge_ - at;
-    return static_cast<float>(0.99999 * distance * distance);
-  }
-
-  void look_in(const Cube& place) {
-    Cube first, last;
-    float nearest = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      first[axis] = std::max(low_[axis], kSide * place[axis]);
-      last[axis] = std::min(high_[axis], kSide * place[axis] + kSide - 1);
-      nearest += gap(axis, std::clamp(middle_[axis], first[axis], last[axis]));
-    }
-    if (nearest > farthest_) return;
-    const std::uint32_t block = index_.find(key_of(place[0], place[1], place[2]));
+  void look_in(std::int64_t block_x, std::int64_t block_y, std::int64_t block_z) {
+    const std::uint32_t block = index_.find(key_of(block_x, block_y, block_z));
     if (block == kNone) return;
     const std::uint32_t* begin = &index_.begin_[std::size_t{block} * kCubesPerBlock];
-    visit_outward(first[0], last[0], middle_[0], [&](std::int64_t x) {
-      const float gap_x = gap(0, x);
-      if (gap_x > farthest_) return;
-      visit_outward(first[1], last[1], middle_[1], [&](std::int64_t y) {
-        if (gap_x + gap(1, y) > farthest_) return;
+    const Cube first{std::max(low_[0], kSide * block_x), std::max(low_[1], kSide * block_y),
+                     std::max(low_[2], kSide * block_z)};
+    const Cube last{std::min(high_[0], kSide * block_x + kSide - 1),
+                    std::min(high_[1], kSide * block_y + kSide - 1),
+                    std::min(high_[2], kSide * block_z + kSide - 1)};
+    for (std::int64_t x = first[0]; x <= last[0]; ++x)
+      for (std::int64_t y = first[1]; y <= last[1]; ++y)
         look(begin[place_in_block(x, y, first[2])], begin[place_in_block(x, y, last[2]) + 1]);
-      });
-    });
   }
 
   void look(std::size_t begin, std::size_t end) {
@@ -199,7 +159,7 @@ class NearestIndex::Search {
   const NearestIndex& index_;
   const std::vector<char>& hidden_;
   Eigen::Vector3f center_;
-  Cube low_, middle_, high_;
+  Cube low_, high_;
   std::optional<Neighbour> best_;
   float farthest_;  ///< squared distance of what is still looked for
 };
