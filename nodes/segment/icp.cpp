@@ -15,17 +15,15 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-// Model points, of which about half face the sensor: few show the way, many the place.
-constexpr Eigen::Index kFewSamples = 500, kSamples = 2000;
-constexpr double kFewUntil = 0.5;  // of the iterations, at most
-constexpr double kSlow = 0.1;      // of the final search radius: a shorter step calls for the many
+constexpr Eigen::Index kFewSamples = 500;  // show the way
+constexpr double kFewUntil = 0.5;          // of the iterations, at most
+constexpr double kSlow = 0.1;  // of the final search radius: a shorter step calls for the many
 constexpr std::size_t kFewestPairs = 10;
 constexpr double kShrink = 0.85;  // of the search radius per iteration
 constexpr double kUnobserved =
     1e-4;                          // eigenvalue, as a share of the pairs' weight: not moved at all
 constexpr double kDamping = 0.01;  // likewise: weakly held directions take several small steps
 constexpr double kMaxTurn = 0.2;   // [rad] per iteration
-constexpr double kStill = 2e-3;    // of the final search radius: a shorter step ends the search
 
 /// A posed model point on its scan point's tangent plane.
 struct Pair {
@@ -132,19 +130,19 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
-  bool few = true;
+  bool few = distance > end;
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     few = few && iteration < kFewUntil * params.iterations;
     const std::vector<Pair> pairs =
         find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance),
-                   few ? kFewSamples : kSamples);
+                   few ? std::min(kFewSamples, params.samples) : params.samples);
     if (pairs.size() < kFewestPairs) break;
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) break;
     const Vector6d step = limit_step(solve_step(pairs, pivot), pivot.lever, distance);
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
-    const bool is_done = distance <= end && step.norm() <= (few ? kSlow : kStill) * end;
+    const bool is_done = distance <= end && step.norm() <= (few ? kSlow : params.still) * end;
     if (is_done && !few) break;
     few = few && !is_done;
     distance = std::max(end, distance * kShrink);

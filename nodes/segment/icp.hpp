@@ -19,6 +19,10 @@ struct IcpParams {
   int iterations = 40;
   float start_distance = 0;  ///< search radius of the first iteration [m]
   float end_distance = 0;    ///< and of the last ones [m]
+  /// Model points at most, of which about half face the sensor. As long as the radius shrinks, 500
+  /// show the way.
+  Eigen::Index samples = 2000;
+  double still = 2e-3;  ///< of end_distance: a shorter step ends the search
 };
 
 /// The refined T_scene_model; the start where fewer than 10 points find a partner. Never NaN.

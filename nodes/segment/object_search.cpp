@@ -6,19 +6,21 @@
 #include <utility>
 
 #include "graph/parallel.hpp"
-#include "nodes/segment/icp.hpp"
 #include "nodes/segment/refine_mode.hpp"
 
 namespace posevote {
 namespace {
 
 constexpr std::size_t kShortlist = 80;  // improved, judged by kSketch model points
-constexpr std::size_t kFinalists = 5;   // refined by ICP, judged by all
+constexpr std::size_t kFinalists = 5;   // refined by ICP, judged by kClose
 constexpr Eigen::Index kGlance = 50;    // model points that judge a proposal as it came
 constexpr Eigen::Index kSketch = 300;   // ... an improved one
 constexpr Eigen::Index kLook = 1000;    // ... one of those that may be a finalist
-constexpr double kKeptSupport = 0.95;   // ICP may lose a few chance partners at the silhouette
-constexpr double kHopeless = 0.25;      // of what is needed: ICP seldom raises a score fourfold
+constexpr Eigen::Index kClose = 4000;   // ... a refined one
+constexpr Eigen::Index kIcpSamples = 1000, kPolishSamples = 10000;
+constexpr double kIcpStill = 0.02;     // of the tolerance
+constexpr double kKeptSupport = 0.95;  // ICP may lose a few chance partners at the silhouette
+constexpr double kHopeless = 0.25;     // of what is needed: ICP seldom raises a score fourfold
 
 // Standard deviations, were the points independent, by which one of two poses that look alike must
 // lead where they differ.
@@ -108,13 +110,16 @@ void ObjectSearch::choose_among_judged() {
   pool_.clear();
 }
 
-void ObjectSearch::accept() {
-  taken_.push_back(best_->mode.center);
-  taken_.push_back(center_of(*best_));
+Candidate ObjectSearch::accept() {
+  Candidate accepted = *best_;
+  polish(accepted);
+  taken_.push_back(accepted.mode.center);
+  taken_.push_back(center_of(accepted));
   ++accepted_;
   best_.reset();
   std::erase_if(
       pool_, [this](const Candidate& other) { return is_full() || !is_clear(other.mode.center); });
+  return accepted;
 }
 
 /// Scores part of the pool by some model points and sorts all up to its end.
@@ -219,20 +224,34 @@ double ObjectSearch::lead_over(const Candidate& origin, const Candidate& other) 
   return sides > 0 ? (for_other.balance - for_origin.balance) / std::sqrt(sides) : 0;
 }
 
-/// ICP on a pose that was looked at, kept where it keeps the support. Done once for a mode: what is
-/// taken out of the scan later moves no pose.
+/// ICP on a pose that was looked at, near enough to choose. Done once for a mode: what is taken out
+/// of the scan later moves no pose.
 void ObjectSearch::refine(Candidate& candidate) const {
-  if (params_.refine && !candidate.is_refined) {
-    const Eigen::Isometry3d T_refined =
-        icp(model_.cloud, scan_.surface, candidate.T_scene_model,
-            {params_.icp_iterations, params_.icp_distance, params_.tolerance});
-    const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
-    if (static_cast<double>(measure(T_refined, kLook).supported) >= fewest)
-      candidate.T_scene_model = T_refined;
-  }
-  candidate.fit = measure(candidate.T_scene_model, 0);
+  if (!candidate.is_refined)
+    run_icp(candidate, {params_.icp_iterations, params_.icp_distance, params_.tolerance,
+                        kIcpSamples, kIcpStill});
+  candidate.fit = measure(candidate.T_scene_model, kClose);
   candidate.is_refined = true;
   set_score(candidate);
+}
+
+/// As exact as the scan allows, for the pose that is chosen.
+void ObjectSearch::polish(Candidate& candidate) const {
+  candidate.fit = measure(candidate.T_scene_model, kLook);
+  run_icp(candidate,
+          {params_.icp_iterations, params_.tolerance, params_.tolerance, kPolishSamples});
+  candidate.fit = measure(candidate.T_scene_model, 0);
+  set_score(candidate);
+}
+
+/// Of a candidate that was judged by kLook; kept where it keeps the support.
+void ObjectSearch::run_icp(Candidate& candidate, const IcpParams& params) const {
+  if (!params_.refine) return;
+  const Eigen::Isometry3d T_refined =
+      icp(model_.cloud, scan_.surface, candidate.T_scene_model, params);
+  const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
+  if (static_cast<double>(measure(T_refined, kLook).supported) >= fewest)
+    candidate.T_scene_model = T_refined;
 }
 
 void ObjectSearch::set_score(Candidate& candidate) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nodes/segment/find_modes.hpp"
+#include "nodes/segment/icp.hpp"
 #include "nodes/segment/measure_fit.hpp"
 #include "nodes/segment/scan_state.hpp"
 
@@ -74,9 +75,9 @@ class ObjectSearch {
   void propose();
   /// Chooses among the poses that are left of those that were proposed.
   void choose();
-  /// Makes `best` an instance, whose neighbourhood is closed to others of this object. To be called
-  /// before what it explains is taken out of the scan.
-  void accept();
+  /// Makes `best` an instance, as exact as the scan allows, whose neighbourhood is closed to others
+  /// of this object. To be called before what it explains is taken out of the scan.
+  Candidate accept();
 
  private:
   void choose_among_judged();
@@ -85,6 +86,8 @@ class ObjectSearch {
   void judge_again();
   std::optional<Candidate> best_finalist();
   void refine(Candidate& candidate) const;
+  void polish(Candidate& candidate) const;
+  void run_icp(Candidate& candidate, const IcpParams& params) const;
   std::vector<Candidate>::iterator refine_best(std::vector<Candidate>& sorted) const;
   Candidate best_alike(const Candidate& candidate) const;
   double lead_over(const Candidate& origin, const Candidate& other) const;
