@@ -35,7 +35,9 @@ void ScanSurface::take_out(const std::vector<char>& explained) {
 bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
   if (!single_view_) return p.normal.squaredNorm() > 0;
   const Eigen::Vector3f to_sensor = viewpoint_ - p.point;
-  return p.normal.dot(to_sensor) > kMinFacingCosine * to_sensor.norm();
+  const float along = p.normal.dot(to_sensor);
+  constexpr float kLeast = kMinFacingCosine * kMinFacingCosine;
+  return along > 0 && along * along > kLeast * to_sensor.squaredNorm();
 }
 
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
