@@ -16,11 +16,13 @@ namespace posevote::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+static_assert(HWY_LANES(float) <= kKernelPadding);
+
 // A panel is at least two vectors wide, and 6 x 2 sums are enough to hide the latency of the fused
 // multiply-add while they still fit the 16 registers of AVX2.
-void score(const float* HWY_RESTRICT queries, const float* HWY_RESTRICT panel,
-           std::size_t dimension, const float* HWY_RESTRICT half_norms, float* HWY_RESTRICT scores,
-           std::size_t stride) {
+void score_panel(const float* HWY_RESTRICT queries, const float* HWY_RESTRICT panel,
+                 std::size_t dimension, const float* HWY_RESTRICT half_norms,
+                 float* HWY_RESTRICT scores, std::size_t stride) {
   const hn::CappedTag<float, kPanelRows / 2> tag;
   const std::size_t lanes = hn::Lanes(tag);
   static_assert(kTileQueries == 6, "the sums below are written out for six queries");
@@ -56,7 +58,7 @@ void score(const float* HWY_RESTRICT queries, const float* HWY_RESTRICT panel,
   }
 }
 
-float second_low(const float* HWY_RESTRICT scores, std::size_t count) {
+float second_lowest(const float* HWY_RESTRICT scores, std::size_t count) {
   const hn::ScalableTag<float> tag;
   const std::size_t lanes = hn::Lanes(tag);
   const auto infinity = hn::Set(tag, std::numeric_limits<float>::infinity());
@@ -83,18 +85,18 @@ float second_low(const float* HWY_RESTRICT scores, std::size_t count) {
   return total == total ? next : total;
 }
 
-std::size_t find(const float* HWY_RESTRICT scores, std::size_t count, float limit,
-                 std::uint32_t* HWY_RESTRICT found) {
+std::size_t find_low(const float* HWY_RESTRICT scores, std::size_t count, float limit,
+                     std::uint32_t* HWY_RESTRICT places) {
   const hn::ScalableTag<float> tag;
-  const hn::RebindToUnsigned<decltype(tag)> places;
+  const hn::RebindToUnsigned<decltype(tag)> numbers;
   const std::size_t lanes = hn::Lanes(tag);
   const auto highest = hn::Set(tag, limit);
   std::size_t size = 0;
   const auto look = [&](std::size_t i, auto in_range) HWY_ATTR {
     const auto low = hn::AndNot(hn::Gt(hn::LoadU(tag, scores + i), highest), in_range);
     if (hn::AllFalse(tag, low)) return;
-    const auto here = hn::Iota(places, static_cast<std::uint32_t>(i));
-    size += hn::CompressStore(here, hn::RebindMask(places, low), places, found + size);
+    const auto here = hn::Iota(numbers, static_cast<std::uint32_t>(i));
+    size += hn::CompressStore(here, hn::RebindMask(numbers, low), numbers, places + size);
   };
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) look(i, hn::FirstN(tag, lanes));
@@ -102,8 +104,8 @@ std::size_t find(const float* HWY_RESTRICT scores, std::size_t count, float limi
   return size;
 }
 
-void multiply_tile(const double* HWY_RESTRICT vectors, const double* HWY_RESTRICT matrix,
-                   std::size_t dimension, std::size_t columns, double* HWY_RESTRICT products) {
+void multiply(const double* HWY_RESTRICT vectors, const double* HWY_RESTRICT matrix,
+              std::size_t dimension, std::size_t columns, double* HWY_RESTRICT products) {
   const hn::CappedTag<double, kColumnStep> tag;
   const std::size_t lanes = hn::Lanes(tag);
   static_assert(kTileVectors == 4, "the sums below are written out for four vectors");
@@ -124,8 +126,8 @@ void multiply_tile(const double* HWY_RESTRICT vectors, const double* HWY_RESTRIC
   }
 }
 
-double square_distance(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b,
-                       std::size_t dimension) {
+double squared_distance(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b,
+                        std::size_t dimension) {
   constexpr std::size_t kSums = 16;
   const hn::CappedTag<double, 8> tag;
   const hn::Rebind<float, decltype(tag)> floats;
@@ -156,32 +158,32 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace posevote {
 
-HWY_EXPORT(score);
-HWY_EXPORT(second_low);
-HWY_EXPORT(find);
-HWY_EXPORT(multiply_tile);
-HWY_EXPORT(square_distance);
+HWY_EXPORT(score_panel);
+HWY_EXPORT(second_lowest);
+HWY_EXPORT(find_low);
+HWY_EXPORT(multiply);
+HWY_EXPORT(squared_distance);
 
 void score_panel(const float* queries, const float* panel, std::size_t dimension,
                  const float* half_norms, float* scores, std::size_t stride) {
-  HWY_DYNAMIC_DISPATCH(score)(queries, panel, dimension, half_norms, scores, stride);
+  HWY_DYNAMIC_DISPATCH(score_panel)(queries, panel, dimension, half_norms, scores, stride);
 }
 
 float second_lowest(const float* scores, std::size_t count) {
-  return HWY_DYNAMIC_DISPATCH(second_low)(scores, count);
+  return HWY_DYNAMIC_DISPATCH(second_lowest)(scores, count);
 }
 
-std::size_t find_low(const float* scores, std::size_t count, float limit, std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(find)(scores, count, limit, found);
+std::size_t find_low(const float* scores, std::size_t count, float limit, std::uint32_t* places) {
+  return HWY_DYNAMIC_DISPATCH(find_low)(scores, count, limit, places);
 }
 
 void multiply(const double* vectors, const double* matrix, std::size_t dimension,
               std::size_t columns, double* products) {
-  HWY_DYNAMIC_DISPATCH(multiply_tile)(vectors, matrix, dimension, columns, products);
+  HWY_DYNAMIC_DISPATCH(multiply)(vectors, matrix, dimension, columns, products);
 }
 
 double squared_distance(const float* a, const float* b, std::size_t dimension) {
-  return HWY_DYNAMIC_DISPATCH(square_distance)(a, b, dimension);
+  return HWY_DYNAMIC_DISPATCH(squared_distance)(a, b, dimension);
 }
 
 }  // namespace posevote

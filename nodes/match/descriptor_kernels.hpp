@@ -18,14 +18,17 @@ inline constexpr std::size_t kTileQueries = 6;
 void score_panel(const float* queries, const float* panel, std::size_t dimension,
                  const float* half_norms, float* scores, std::size_t stride);
 
+/// What may be read behind the last of the scores, and written behind what is found.
+inline constexpr std::size_t kKernelPadding = 16;
+
 /// The second lowest of the scores (of two equal ones, both); infinity if there is but one. Not a
 /// number if any is not.
 float second_lowest(const float* scores, std::size_t count);
 
 /// Writes the places of the scores that are not above the limit (so that what is not a number
-/// counts too), in ascending order, and returns how many they are. `found` has room for `count`,
-/// and one vector (64 bytes) more.
-std::size_t find_low(const float* scores, std::size_t count, float limit, std::uint32_t* found);
+/// counts too), in ascending order, and returns how many they are. `places` has room for `count`
+/// and kKernelPadding.
+std::size_t find_low(const float* scores, std::size_t count, float limit, std::uint32_t* places);
 
 /// What multiply() takes at a time: vectors, and columns.
 inline constexpr std::size_t kTileVectors = 4;

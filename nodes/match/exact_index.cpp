@@ -41,13 +41,14 @@ class Search {
   Search(const DescriptorMatrix& rows, const float* query, double squared_norm, float error)
       : rows_(&rows), query_(query), squared_norm_(squared_norm), error_(error) {}
 
+  /// `places`: room for those of all scores.
   void look(const float* scores, std::size_t count, std::size_t first_row,
-            std::vector<std::uint32_t>& room) {
-    if (first_row == 0) seed(scores, count, room);
-    const std::size_t found = find_low(scores, count, limit_, room.data());
+            std::vector<std::uint32_t>& places) {
+    if (first_row == 0) seed(scores, count, places);
+    const std::size_t found = find_low(scores, count, limit_, places.data());
     for (std::size_t i = 0; i < found; ++i) {
-      if (scores[room[i]] > limit_) continue;
-      offer(best_, first_row + room[i]);
+      if (scores[places[i]] > limit_) continue;
+      offer(best_, first_row + places[i]);
       limit_ = std::min(limit_, limit(best_));
     }
   }
@@ -55,10 +56,10 @@ class Search {
 
  private:
   /// A first limit: that of the rows with the lowest scores.
-  void seed(const float* scores, std::size_t count, std::vector<std::uint32_t>& room) {
+  void seed(const float* scores, std::size_t count, std::vector<std::uint32_t>& places) {
     BestTwo lowest;
-    const std::size_t found = find_low(scores, count, second_lowest(scores, count), room.data());
-    for (std::size_t i = 0; i < found; ++i) offer(lowest, room[i]);
+    const std::size_t found = find_low(scores, count, second_lowest(scores, count), places.data());
+    for (std::size_t i = 0; i < found; ++i) offer(lowest, places[i]);
     limit_ = limit(lowest);
   }
   void offer(BestTwo& best, std::size_t row) const {
@@ -133,13 +134,13 @@ void ExactIndex::Data::match_block(const DescriptorMatrix& queries, std::size_t 
     searches.emplace_back(rows, query, brief.row(i).cast<double>().squaredNorm(),
                           error(brief.row(i).norm()));
   }
-  std::vector<float> scores(tiles * kTileQueries * kChunkRows);
-  std::vector<std::uint32_t> room(kChunkRows + kPanelRows);
+  std::vector<float> scores(tiles * kTileQueries * kChunkRows + kKernelPadding);
+  std::vector<std::uint32_t> places(kChunkRows + kKernelPadding);
   for (std::size_t row = 0; row < count(); row += kChunkRows) {
     const std::size_t row_count = std::min(kChunkRows, count() - row);
     score(packed.data(), tiles, row, row_count, scores.data());
     for (std::size_t q = 0; q < query_count; ++q)
-      searches[q].look(scores.data() + q * kChunkRows, row_count, row, room);
+      searches[q].look(scores.data() + q * kChunkRows, row_count, row, places);
   }
   for (std::size_t q = 0; q < query_count; ++q) out[first + q] = searches[q].result();
 }

@@ -14,8 +14,8 @@ namespace posevote {
 
 class PrincipalAxes {
  public:
-  /// Of the rows' distribution; at least one row. Where few axes do not hold most of it, and where
-  /// descriptors are short already, they stay as long as they are.
+  /// Of the rows' distribution; at least one row. Where few axes do not hold most of it or take too
+  /// long to find, and where descriptors are short already, only the mean is taken off.
   explicit PrincipalAxes(const DescriptorMatrix& rows);
 
   /// Numbers of a short descriptor.

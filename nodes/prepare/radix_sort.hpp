@@ -26,6 +26,7 @@ template <class Item, class KeyOf>
 void radix_sort(std::vector<Item>& items, const KeyOf& key) {
   if (items.empty()) return;
   using Key = decltype(key(items.front()));
+  static_assert(static_cast<Key>(-1) > Key{0}, "unsigned");
   constexpr int kDigit = 11;  // bits
   constexpr std::size_t kMask = (1U << kDigit) - 1;
   const auto digit = [&key](const Item& item, unsigned shift) {

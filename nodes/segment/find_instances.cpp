@@ -49,7 +49,8 @@ std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanSt
   while (propose(sorted))
     while (ObjectSearch* search = best_of(sorted)) {
       const Instance& instance = found.emplace_back(
-          Instance{static_cast<std::size_t>(search - searches.data()), search->accept()});
+          Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
+      search->accept();
       if (std::all_of(sorted.begin(), sorted.end(),
                       [](const ObjectSearch* s) { return s->is_full(); }))
         return found;

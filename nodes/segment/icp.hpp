@@ -19,10 +19,10 @@ struct IcpParams {
   int iterations = 40;
   float start_distance = 0;  ///< search radius of the first iteration [m]
   float end_distance = 0;    ///< and of the last ones [m]
-  /// Model points at most, of which about half face the sensor. As long as the radius shrinks, 500
-  /// show the way.
+  /// Model points at most, of which about half face the sensor. 500 show the way until steps are
+  /// short, or half of the iterations are done; none where the radius is the last from the start.
   Eigen::Index samples = 2000;
-  double still = 2e-3;  ///< of end_distance: a shorter step ends the search
+  double still = 2e-3;  ///< of end_distance: a shorter step of all of them ends the search
 };
 
 /// The refined T_scene_model; the start where fewer than 10 points find a partner. Never NaN.

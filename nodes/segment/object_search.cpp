@@ -102,24 +102,29 @@ void ObjectSearch::choose() {
 }
 
 void ObjectSearch::choose_among_judged() {
-  best_ = best_finalist();
-  if (best_ && proposals_.votes_per_correspondence > 0) best_->consensus = consensus(*best_);
   chosen_at_ = scan_.takes;
-  if (best_ && best_->confidence() > 0 && best_->confidence() >= params_.min_score) return;
+  best_ = best_finalist();
+  if (best_ && is_convincing(*best_)) {
+    polish(*best_);
+    if (is_convincing(*best_) && is_clear(center_of(*best_))) return;
+  }
   best_.reset();
   pool_.clear();
 }
 
-Candidate ObjectSearch::accept() {
-  Candidate accepted = *best_;
-  polish(accepted);
-  taken_.push_back(accepted.mode.center);
-  taken_.push_back(center_of(accepted));
+/// By its fit and its consensus, which this sets.
+bool ObjectSearch::is_convincing(Candidate& candidate) const {
+  if (proposals_.votes_per_correspondence > 0) candidate.consensus = consensus(candidate);
+  return candidate.confidence() > 0 && candidate.confidence() >= params_.min_score;
+}
+
+void ObjectSearch::accept() {
+  taken_.push_back(best_->mode.center);
+  taken_.push_back(center_of(*best_));
   ++accepted_;
   best_.reset();
   std::erase_if(
       pool_, [this](const Candidate& other) { return is_full() || !is_clear(other.mode.center); });
-  return accepted;
 }
 
 /// Scores part of the pool by some model points and sorts all up to its end.
@@ -237,20 +242,21 @@ void ObjectSearch::refine(Candidate& candidate) const {
 
 /// As exact as the scan allows, for the pose that is chosen.
 void ObjectSearch::polish(Candidate& candidate) const {
-  candidate.fit = measure(candidate.T_scene_model, kLook);
   run_icp(candidate,
           {params_.icp_iterations, params_.tolerance, params_.tolerance, kPolishSamples});
   candidate.fit = measure(candidate.T_scene_model, 0);
   set_score(candidate);
 }
 
-/// Of a candidate that was judged by kLook; kept where it keeps the support.
+/// Kept where it keeps the support.
 void ObjectSearch::run_icp(Candidate& candidate, const IcpParams& params) const {
   if (!params_.refine) return;
+  const auto support = [this](const Eigen::Isometry3d& T_scene_model) {
+    return static_cast<double>(measure(T_scene_model, kLook).supported);
+  };
   const Eigen::Isometry3d T_refined =
       icp(model_.cloud, scan_.surface, candidate.T_scene_model, params);
-  const double fewest = kKeptSupport * static_cast<double>(candidate.fit.supported);
-  if (static_cast<double>(measure(T_refined, kLook).supported) >= fewest)
+  if (support(T_refined) >= kKeptSupport * support(candidate.T_scene_model))
     candidate.T_scene_model = T_refined;
 }
 

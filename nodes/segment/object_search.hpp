@@ -75,9 +75,9 @@ class ObjectSearch {
   void propose();
   /// Chooses among the poses that are left of those that were proposed.
   void choose();
-  /// Makes `best` an instance, as exact as the scan allows, whose neighbourhood is closed to others
-  /// of this object. To be called before what it explains is taken out of the scan.
-  Candidate accept();
+  /// Makes `best` an instance, whose neighbourhood is closed to others of this object. To be called
+  /// before what it explains is taken out of the scan.
+  void accept();
 
  private:
   void choose_among_judged();
@@ -85,6 +85,7 @@ class ObjectSearch {
   void leave_out_likes();
   void judge_again();
   std::optional<Candidate> best_finalist();
+  bool is_convincing(Candidate& candidate) const;
   void refine(Candidate& candidate) const;
   void polish(Candidate& candidate) const;
   void run_icp(Candidate& candidate, const IcpParams& params) const;

@@ -126,8 +126,10 @@ HWY_INLINE std::uint64_t weigh(const Kernel& kernel, const VoteColumns& columns,
   for (const Found* one = found; one < found + size; ++one) {
     const U weights = query.weights(kernel, columns, *one);
     total = hn::Add(total, weights);
-    std::uint32_t* here = back + one->first;
-    if (kBack) hn::StoreU(hn::Add(hn::LoadU(units, here), weights), units, here);
+    if constexpr (kBack) {
+      std::uint32_t* here = back + one->first;
+      hn::StoreU(hn::Add(hn::LoadU(units, here), weights), units, here);
+    }
   }
   HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
   hn::Store(total, units, lanes);
@@ -166,7 +168,7 @@ std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VoteP
 }
 
 std::size_t collect(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
-                    IndexRange range, std::uint32_t* numbers, std::uint32_t* weights) {
+                    IndexRange range, std::uint32_t* places, std::uint32_t* weights) {
   const Units units;
   const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
   const Query query(kernel, point);
@@ -179,8 +181,8 @@ std::size_t collect(const Kernel& kernel, const VoteColumns& columns, const Vote
     for (const Found* one = found; one < end; ++one) {
       const U weight = query.weights(kernel, columns, *one);
       const auto near = hn::Ne(weight, hn::Zero(units));
-      const U number = hn::Add(lane, hn::Set(units, one->first));
-      hn::StoreU(hn::Compress(number, near), units, numbers + count);
+      const U place = hn::Add(lane, hn::Set(units, one->first));
+      hn::StoreU(hn::Compress(place, near), units, places + count);
       hn::StoreU(hn::Compress(weight, near), units, weights + count);
       count += hn::CountTrue(units, near);
     }
@@ -240,8 +242,8 @@ std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const
 }
 
 std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         IndexRange range, std::uint32_t* numbers, std::uint32_t* weights) {
-  return HWY_DYNAMIC_DISPATCH(collect)(kernel, columns, query, range, numbers, weights);
+                         IndexRange range, std::uint32_t* places, std::uint32_t* weights) {
+  return HWY_DYNAMIC_DISPATCH(collect)(kernel, columns, query, range, places, weights);
 }
 
 std::size_t copy_near(const Kernel& kernel, const VoteColumns& columns, IndexRange range,

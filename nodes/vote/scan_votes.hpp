@@ -40,7 +40,7 @@ std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const
 /// Writes the places of the range's votes that are neighbours of the query, ascending, and their
 /// weights in units; returns how many. Both have room for all and kScanPadding more.
 std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         IndexRange range, std::uint32_t* numbers, std::uint32_t* weights);
+                         IndexRange range, std::uint32_t* places, std::uint32_t* weights);
 
 /// Bounding box of translations.
 struct VoteBox {

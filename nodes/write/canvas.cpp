@@ -67,8 +67,7 @@ Span row_of(const Disc& disc, float radius, float dy) {
   const float tx = disc.tilt.x(), ty = disc.tilt.y();
   const float a = 1 + tx * tx;
   const float b = tx * ty * dy;
-  const float c = dy * dy * (1 + ty * ty) - radius * radius;
-  const float root = b * b - a * c;
+  const float root = radius * radius * a - dy * dy * (a + ty * ty);
   if (!(root >= 0)) return {};
   const float half = std::sqrt(root);
   return {static_cast<int>(std::ceil((-b - half) / a)),
@@ -99,8 +98,8 @@ void Canvas::fill(int x, int y, int width, int height, const Colour& colour) {
 
 void Canvas::draw(const Disc& disc, const Colour& colour) {
   constexpr float kMost = 40;
-  const float farthest = std::max(std::abs(disc.x), std::abs(disc.y));
-  if (!(farthest < 1e6F) || !(disc.radius >= 0) || !(disc.tilt.norm() <= 1e3F)) return;
+  const bool in_reach = std::abs(disc.x) < 1e6F && std::abs(disc.y) < 1e6F;
+  if (!in_reach || !(disc.radius >= 0) || !(disc.tilt.norm() <= 1e3F)) return;
   const std::uint32_t pixel = to_pixel(colour);
   const float radius = std::min(disc.radius, kMost);
   const int reach = static_cast<int>(radius);

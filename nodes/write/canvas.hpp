@@ -27,7 +27,7 @@ class Canvas {
   Canvas(int width, int height, const Colour& background);
 
   /// Draws where nothing nearer has been drawn: at least the disc's center, at most 40 pixels
-  /// around. Discs that are not finite, or tilted beyond 1000, are left out.
+  /// around. Discs of which center or tilt is not finite, or beyond 1e6 or 1000, are left out.
   void draw(const Disc& disc, const Colour& colour);
 
   /// The same picture at half the size, each pixel the mean of four: smooth edges.

@@ -114,7 +114,7 @@ void inner_votes(benchmark::State& state) {
 }
 
 void inner_scores(benchmark::State& state) {
-  constexpr std::size_t kDimension = 48;
+  constexpr std::size_t kDimension = 64;
   const auto queries = numbers(kTileQueries * kDimension, 1);
   const hwy::AlignedFreeUniquePtr<float[]> panel =
       hwy::AllocateAligned<float>(kPanelRows * kDimension);

@@ -117,10 +117,10 @@ TEST_CASE("the kernels of exact search keep what is not a number", "[match]") {
   const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
   if (!there) return;
   const float inf = std::numeric_limits<float>::infinity();
-  std::vector<float> scores(100, 5);
+  std::vector<float> scores(100 + kKernelPadding, 5);
   scores[7] = 1;
   scores[99] = 2;
-  std::vector<std::uint32_t> found(200);
+  std::vector<std::uint32_t> found(100 + kKernelPadding);
   CHECK(second_lowest(scores.data(), 100) == 2);
   CHECK(second_lowest(scores.data(), 99) == 5);
   CHECK(second_lowest(scores.data() + 7, 1) == inf);

@@ -10,29 +10,41 @@ using namespace posevote;
 
 namespace {
 
+template <class Key>
 struct Item {
-  std::uint32_t key = 0, place = 0;
+  Key key = 0;
+  std::uint32_t place = 0;
   bool operator==(const Item&) const = default;
 };
 
-std::vector<Item> random_items(std::size_t count, std::uint32_t mask) {
-  std::mt19937 random(3);
-  std::vector<Item> items(count);
-  for (std::uint32_t i = 0; i < count; ++i)
-    items[i] = {static_cast<std::uint32_t>(random()) & mask, i};
+template <class Key>
+std::vector<Item<Key>> random_items(std::size_t count, Key mask) {
+  std::mt19937_64 random(3);
+  std::vector<Item<Key>> items(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    LargeNumber key = random();
+    key = key << 64 | random();
+    items[i] = {static_cast<Key>(static_cast<Key>(key) & mask), i};
+  }
   return items;
 }
 
 }  // namespace
 
-TEST_CASE("radix_sort sorts as std::stable_sort does", "[prepare]") {
-  for (const std::uint32_t mask : {0U, 7U, 0x7FFU, 0xFFFF0000U, 0x400001U, 0xFFFFFFFFU})
+TEMPLATE_TEST_CASE("radix_sort sorts as std::stable_sort does", "[prepare]", std::uint32_t,
+                   std::uint64_t, LargeNumber) {
+  constexpr unsigned kBits = 8 * sizeof(TestType);
+  const TestType all = static_cast<TestType>(-1), one = 1;
+  for (const TestType mask :
+       {TestType{0}, TestType{7}, TestType{0x7FF}, TestType{0x400001}, all,
+        static_cast<TestType>(all << (kBits / 2)), static_cast<TestType>(one << (kBits - 1) | one)})
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{5000}}) {
-      std::vector<Item> items = random_items(count, mask), expected = items;
-      radix_sort(items, [](const Item& item) { return item.key; });
-      std::stable_sort(expected.begin(), expected.end(),
-                       [](const Item& a, const Item& b) { return a.key < b.key; });
-      CHECK(items == expected);
+      std::vector<Item<TestType>> items = random_items(count, mask), expected = items;
+      radix_sort(items, [](const Item<TestType>& item) { return item.key; });
+      std::stable_sort(
+          expected.begin(), expected.end(),
+          [](const Item<TestType>& a, const Item<TestType>& b) { return a.key < b.key; });
+      CHECK((items == expected));
     }
 }
 

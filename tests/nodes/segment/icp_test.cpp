@@ -2,6 +2,7 @@
 #include "nodes/segment/icp.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "tests/support/bumpy_scene.hpp"
@@ -54,6 +55,32 @@ TEST_CASE("ICP converges from 3 deg and 5 mm", "[segment]") {
     CHECK(error.shift < 0.1 * kResolution);
     CHECK(error.turn < 0.003);
   }
+}
+
+TEST_CASE("few points find the way, many the place", "[segment]") {
+  const Placed body{1, pose(-0.05, 0.01, 0.8, 0.7)};
+  const auto model = bumpy_model(1);
+  Cloud scan = scan_of({body});
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise(0, 0.5F * kResolution);
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i)
+    scan.points.row(i) += noise(random) * scan.normals.row(i);
+  const ScanSurface surface(scan, true, kReach);
+  IcpParams few = kParams, many = kParams;
+  few.samples = 200;
+  many.samples = model->cloud.points.rows();
+  many.start_distance = many.end_distance;  // all points from the first iteration on
+  double by_few = 0, by_many = 0;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 0.5 * i;
+    const Eigen::Isometry3d start =
+        body.T_scene_model * pose(0.004 * std::cos(angle), 0.004 * std::sin(angle), 0, 0.03);
+    const Eigen::Isometry3d near = icp(model->cloud, surface, start, few);
+    by_few += error_of(near, body.T_scene_model).shift;
+    by_many += error_of(icp(model->cloud, surface, near, many), body.T_scene_model).shift;
+  }
+  CHECK(by_few / 12 < 0.5 * kResolution);
+  CHECK(by_many < 0.7 * by_few);
 }
 
 TEST_CASE("ICP holds a body of which a quarter is left", "[segment]") {

@@ -81,6 +81,8 @@ TEST_CASE("letters stand upright, and nothing outside is drawn", "[write]") {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   for (const float far : {-1e30F, -50.0F, 1e5F, 1e30F, kNan})
     canvas.draw(disc(far, far, 1, 9), kRed);
+  canvas.draw(disc(kNan, 5, 1, 9), kGreen);
+  canvas.draw(disc(5, kNan, 1, 9), kGreen);
   canvas.draw(disc(5, 5, kNan, 9), kGreen);
   canvas.draw(disc(5, 5, 1, kNan), kGreen);
   canvas.text(-1000, -1000, 2, "FAR \xff away", kRed);
