@@ -20,7 +20,7 @@ constexpr Eigen::Index kClose = 4000;   // ... a refined one
 constexpr Eigen::Index kIcpSamples = 1000, kPolishSamples = 10000;
 constexpr double kIcpStill = 0.02;     // of the tolerance
 constexpr double kKeptSupport = 0.95;  // ICP may lose a few chance partners at the silhouette
-constexpr double kHopeless = 0.5;      // of what is needed: ICP seldom doubles a score
+constexpr double kHopeless = 0.25;     // of what is needed: ICP seldom raises a score fourfold
 
 // Standard deviations, were the points independent, by which one of two poses that look alike must
 // lead where they differ.
