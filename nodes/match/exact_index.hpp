@@ -5,7 +5,7 @@
 // compared with all rows by blocked products, |a - b|^2 = |a|^2 + |b|^2 - 2 ab, at the processor's
 // full speed; at the lengths of descriptors that beats every tree. Rows which that leaves as near
 // as the second nearest known so far, within a bound on the products' rounding, are compared in
-// full. Cost: queries x rows x short length, and some ten full distances a query.
+// full. Cost: queries x rows x short length, and some forty full distances a query.
 #pragma once
 
 #include <memory>
