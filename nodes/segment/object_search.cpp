@@ -98,10 +98,6 @@ void ObjectSearch::leave_out_likes() {
 
 void ObjectSearch::choose() {
   judge_again();
-  choose_among_judged();
-}
-
-void ObjectSearch::choose_among_judged() {
   chosen_at_ = scan_.takes;
   best_ = best_finalist();
   if (best_ && is_convincing(*best_)) {

@@ -80,7 +80,6 @@ class ObjectSearch {
   void accept();
 
  private:
-  void choose_among_judged();
   void judge(std::size_t begin, std::size_t end, Eigen::Index samples);
   void leave_out_likes();
   void judge_again();

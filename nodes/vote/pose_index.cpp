@@ -15,6 +15,7 @@ namespace posevote {
 struct PoseIndex::Data {
   std::size_t vote_count;  ///< unusable ones included
   SortedVotes sorted;
+  Kernel kernel;  ///< of its bandwidth
 };
 
 namespace {
@@ -35,7 +36,8 @@ void check_bandwidth(Bandwidth bandwidth) {
 
 PoseIndex::PoseIndex(const VoteSet& votes, Bandwidth bandwidth) {
   check_bandwidth(bandwidth);
-  data_ = std::make_unique<const Data>(Data{votes.tx.size(), sort_votes(votes, bandwidth)});
+  data_ = std::make_unique<const Data>(
+      Data{votes.tx.size(), sort_votes(votes, bandwidth), make_kernel(bandwidth)});
 }
 
 PoseIndex::~PoseIndex() = default;
@@ -77,14 +79,13 @@ std::vector<WeightedVote> PoseIndex::neighbours(const Eigen::Vector3f& center,
                        rotation.x(), rotation.y(), rotation.z()};
   std::vector<WeightedVote> found;
   if (!is_usable(pose, sorted.bandwidth)) return found;
-  const Kernel kernel = make_kernel(sorted.bandwidth);
   CellSearch search(sorted);
   std::vector<std::uint32_t> places, weights;
   for (const IndexRange& range : search.around(translation_cell(pose, sorted.bandwidth))) {
     places.resize(std::max(places.size(), range.end - range.begin + kScanPadding));
     weights.resize(places.size());
-    const std::size_t count =
-        collect_near(kernel, sorted.votes.columns(), pose, range, places.data(), weights.data());
+    const std::size_t count = collect_near(data_->kernel, sorted.votes.columns(), pose, range,
+                                           places.data(), weights.data());
     for (std::size_t i = 0; i < count; ++i)
       found.push_back({sorted.numbers[places[i]], static_cast<float>(weights[i]) / kWeightUnits});
   }
