@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // For all queries of one translation cell together, the others that are near enough in translation
-// are collected once. Where they are few, each query looks at all of them; where they are many,
-// they are sorted by rotation cell, and each query looks at the rows of cells within its reach.
+// are collected once. Where they are few, queries look at all of them; where they are many, they
+// are sorted by rotation cell, and queries look at the rows of cells within their reach. They look
+// in groups, which are of like rotations because the votes of a cell are sorted by those.
 //
 // Of one set at its own votes, each pair is looked at once: a vote meets those behind it in its own
 // cell and those of the cells behind, and what it weighs there is added there as well.
 #include "nodes/vote/density_sums.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "graph/parallel.hpp"
 #include "nodes/vote/scan_votes.hpp"
@@ -27,7 +29,7 @@ struct Batch {
 
 constexpr std::uint32_t kMaxQueries = 4096;
 // Where sorting pays: measured on the votes of real scans, flat within half to twice.
-constexpr std::uint32_t kFewestQueries = 16, kFewestSorted = 1500;
+constexpr std::uint32_t kFewestQueries = 16, kFewestSorted = 3000;
 constexpr double kVotesPerCell = 16;
 
 // Of batches, for the threads; what short ones add to is mostly others' sums.
@@ -43,61 +45,50 @@ std::vector<Batch> make_batches(const SortedVotes& queries) {
   return batches;
 }
 
-VoteBox bounding_box(const VoteColumns& votes, IndexRange range) {
-  VoteBox box{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto [low, high] = std::minmax_element(votes[a] + range.begin, votes[a] + range.end);
-    box.low[a] = *low;
-    box.high[a] = *high;
-  }
-  return box;
-}
+/// Sums of some votes: of `first` and those behind it.
+struct PartialSums {
+  std::uint32_t first;
+  std::vector<std::uint64_t> sums;
+};
 
 /// The work of one thread on batches that follow each other.
 class BatchWorker {
  public:
   /// `queries` and `others` may be one and the same; then each pair of votes is looked at once.
   /// `first`: the first query of all batches.
-  BatchWorker(const SortedVotes& queries, const SortedVotes& others, std::uint32_t first,
-              std::vector<std::uint64_t>& sums)
+  BatchWorker(const SortedVotes& queries, const SortedVotes& others, std::uint32_t first)
       : queries_(queries),
         others_(others),
-        first_(first),
-        sums_(sums),
+        result_{first, {}},
         search_(others),
-        kernel_(make_kernel(queries.bandwidth)),
-        reach_(make_rotation_reach(kernel_, queries.bandwidth)) {}
+        kernel_(make_kernel(queries.bandwidth)) {}
 
   void run(const Batch& batch);
 
-  /// To be called at the end. Other threads may add to the same sums; the order of integers does
-  /// not matter.
-  void add_to_sums() {
-    for (std::size_t i = 0; i < my_sums_.size(); ++i)
-      if (my_sums_[i] != 0)
-        std::atomic_ref(sums_[first_ + i]).fetch_add(my_sums_[i], std::memory_order_relaxed);
-  }
+  /// Of the batches that were run: all that their queries weigh, and what they weigh elsewhere.
+  PartialSums& result() { return result_; }
 
  private:
   bool one_set() const { return &queries_ == &others_; }
+  std::uint64_t& sum_of(std::uint32_t vote) { return result_.sums[vote - result_.first]; }
   void give_back();
   void collect(const Batch& batch);
   void sort_by_rotation(VoteSection& section, std::uint32_t query_count);
-  std::uint64_t sum_at(const VotePoint& query, std::uint32_t from);
+  void run_group(IndexRange queries);
+  void find_blocks(const VotePoint* queries, std::size_t count, std::uint32_t from);
 
   const SortedVotes& queries_;
   const SortedVotes& others_;
-  std::uint32_t first_;                 ///< query
-  std::vector<std::uint64_t> my_sums_;  ///< of it and those behind it, not yet in sums_
-  std::vector<std::uint64_t>& sums_;
+  PartialSums result_;
   CellSearch search_;
   Kernel kernel_;
-  RotationReach reach_;
   VoteTable near_;                      ///< the others that a batch meets
   std::vector<std::uint32_t> numbers_;  ///< of each
   std::vector<std::uint32_t> back_;     ///< what the queries weigh at each, not yet added
+  std::uint32_t back_count_ = 0;        ///< queries that have added to it
   VoteSection own_, ahead_;             ///< the batch's own votes, first; all others
-  std::vector<IndexRange> rows_;
+  std::vector<IndexRange> blocks_;      ///< that a group looks at
+  std::vector<std::uint32_t> found_;    ///< for scan_votes
   // of sort_by_rotation
   std::vector<RotationCode> codes_;
   std::vector<std::uint32_t> places_;
@@ -109,27 +100,43 @@ void BatchWorker::run(const Batch& batch) {
   const std::uint32_t count = batch.queries.end - batch.queries.begin;
   sort_by_rotation(own_, count);
   sort_by_rotation(ahead_, count);
+  // Of one set, the queries are the first votes of the table.
+  const std::uint32_t first = one_set() ? 0 : batch.queries.begin;
+  if (one_set()) back_.assign(own_.size() + ahead_.size() + kScanPadding, 0);
+  for (std::uint32_t i = 0; i < count; i += kGroup)
+    run_group({first + i, first + std::min(count, i + kGroup)});
+  if (one_set()) give_back();
+}
+
+void BatchWorker::run_group(IndexRange queries) {
+  const std::size_t count = queries.end - queries.begin;
+  const VoteTable& table = one_set() ? near_ : queries_.votes;
+  VotePoint points[kGroup];
+  std::uint64_t sums[kGroup];
+  for (std::uint32_t k = 0; k < count; ++k) points[k] = table.at(queries.begin + k);
+  find_blocks(points, count, one_set() ? queries.begin : 0);
+  const auto scan = [&](const Mutual* mutual) {
+    scan_votes(kernel_, near_.columns(), points, count, {blocks_.data(), blocks_.size()}, mutual,
+               found_.data(), sums);
+  };
   if (!one_set()) {
-    for (std::uint32_t i = batch.queries.begin; i < batch.queries.end; ++i)
-      my_sums_[i - first_] = sum_at(queries_.votes.at(i), 0);
+    scan(nullptr);
+    for (std::uint32_t k = 0; k < count; ++k) sum_of(queries.begin + k) = sums[k];
     return;
   }
-  back_.assign(own_.size() + ahead_.size() + kScanPadding, 0);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    // A vote weighs 1 at itself.
-    my_sums_[numbers_[i] - first_] += kWeightUnits + sum_at(near_.at(i), i + 1);
-    if (i % kMostWeights == kMostWeights - 1) {
-      give_back();
-      std::fill(back_.begin(), back_.end(), 0);
-    }
-  }
-  give_back();
+  const Mutual mutual{near_[0] + queries.begin, back_.data()};
+  scan(&mutual);
+  for (std::uint32_t k = 0; k < count; ++k)
+    sum_of(numbers_[queries.begin + k]) += kWeightUnits + sums[k];  // 1 at itself
+  if ((back_count_ += kGroup) > kMostWeights - kGroup) give_back();
 }
 
 /// Adds what the queries weigh at the others.
 void BatchWorker::give_back() {
   const std::size_t count = own_.size() + ahead_.size();
-  for (std::size_t i = 0; i < count; ++i) my_sums_[numbers_[i] - first_] += back_[i];
+  for (std::size_t i = 0; i < count; ++i) sum_of(numbers_[i]) += back_[i];
+  std::fill(back_.begin(), back_.end(), 0);
+  back_count_ = 0;
 }
 
 void BatchWorker::collect(const Batch& batch) {
@@ -149,10 +156,12 @@ void BatchWorker::collect(const Batch& batch) {
                     box, near_[0] + count, near_.stride(), numbers_.data() + count));
   // The queries lie in their own box, so that all of them are there, and first.
   const std::uint32_t own = one_set() ? batch.queries.end - batch.queries.begin : 0;
+  near_.close(count);
+  found_.resize(std::max(found_.size(), (count / kBlock + 1) * kFoundPerBlock + kGroup));
   own_ = VoteSection({0, own});
   ahead_ = VoteSection({own, count});
   const std::uint32_t end = one_set() ? ranges.back().end : batch.queries.end;
-  my_sums_.resize(std::max<std::size_t>(my_sums_.size(), end - first_), 0);
+  result_.sums.resize(std::max<std::size_t>(result_.sums.size(), end - result_.first), 0);
 }
 
 void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_count) {
@@ -162,7 +171,8 @@ void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_cou
   codes_.resize(count);
   for (std::size_t i = 0; i < count; ++i) codes_[i] = others_.codes[numbers_[first + i]];
   section.sort(codes_,
-               static_cast<std::uint32_t>(std::clamp<double>(cells, 1, reach_.cells_per_axis)),
+               static_cast<std::uint32_t>(
+                   std::clamp<double>(cells, 1, finest_rotation_cells(queries_.bandwidth))),
                places_);
   moved_.resize(count);
   for (std::size_t c = 0; c < kVoteColumns; ++c) {
@@ -175,33 +185,42 @@ void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_cou
   for (std::size_t i = 0; i < count; ++i) numbers[places_[i] - first] = codes_[i];
 }
 
-/// Of the votes from `from` on.
-std::uint64_t BatchWorker::sum_at(const VotePoint& query, std::uint32_t from) {
-  rows_.clear();
+/// All blocks with votes that the queries may meet, but for votes before `from`.
+void BatchWorker::find_blocks(const VotePoint* queries, std::size_t count, std::uint32_t from) {
+  blocks_.clear();
   RotationBoxes boxes;
-  if (own_.is_sorted() || ahead_.is_sorted()) boxes = rotation_boxes(query, reach_);
+  if (own_.is_sorted() || ahead_.is_sorted())
+    boxes = rotation_boxes(reach_of(kernel_, queries, count));
   for (const VoteSection* section : {&own_, &ahead_}) {
     if (section->is_sorted())
-      for (std::size_t i = 0; i < boxes.count; ++i) section->add_rows(boxes.items[i], from, rows_);
+      for (std::size_t i = 0; i < boxes.count; ++i)
+        section->add_rows(boxes.items[i], from, blocks_);
     else
-      rows_.push_back({std::max(section->votes().begin, from), section->votes().end});
+      add_blocks({std::max(section->votes().begin, from), section->votes().end}, blocks_);
   }
-  return scan_votes(kernel_, near_.columns(), query, rows_.data(), rows_.size(),
-                    one_set() ? back_.data() : nullptr);
+}
+
+std::vector<std::uint64_t> total_of(const std::vector<PartialSums>& parts, std::size_t count) {
+  std::vector<std::uint64_t> total(count, 0);
+  for (const PartialSums& part : parts)
+    for (std::size_t i = 0; i < part.sums.size(); ++i) total[part.first + i] += part.sums[i];
+  return total;
 }
 
 }  // namespace
 
 std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const SortedVotes& others) {
-  std::vector<std::uint64_t> sums(queries.size(), 0);
   const std::vector<Batch> batches = make_batches(queries);
   const std::size_t grain = batches.size() / kMostRanges;
+  std::vector<PartialSums> parts;  // in no order: sums of integers are the same in any
+  std::mutex adding;
   graph::parallel_ranges(batches.size(), grain, [&](std::size_t begin, std::size_t end) {
-    BatchWorker worker(queries, others, batches[begin].queries.begin, sums);
+    BatchWorker worker(queries, others, batches[begin].queries.begin);
     for (std::size_t b = begin; b < end; ++b) worker.run(batches[b]);
-    worker.add_to_sums();
+    const std::scoped_lock lock(adding);
+    parts.push_back(std::move(worker.result()));
   });
-  return sums;
+  return total_of(parts, queries.size());
 }
 
 std::vector<std::uint64_t> density_sums(const SortedVotes& votes) {

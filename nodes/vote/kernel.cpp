@@ -43,19 +43,18 @@ Kernel make_kernel(Bandwidth bandwidth) {
   kernel.max_e2 = static_cast<float>(chord * chord);
   // e2 = |q|^2 + |q'|^2 - 2 <q, q'>, and the norms are 1 up to 1e-5 (is_usable).
   kernel.min_cosine = static_cast<float>(1 - chord * chord / 2 - 5e-5);
-  kernel.per_dt2 = static_cast<float>(1 / (2 * sigma_t * sigma_t));
-  const auto angle = interpolate<5>(
-      [](double e2) {  // d_R^2 = 16 asin^2(e / 2)
-        const double d = 4 * std::asin(std::sqrt(e2) / 2);
-        return d * d;
+  const auto translation = interpolate<5>([](double share) { return std::exp(-share / 2); }, 1);
+  const auto rotation = interpolate<5>(
+      [sigma_r](double e2) {
+        const double share = 4 * std::asin(std::sqrt(e2) / 2) / sigma_r;
+        return std::exp(-share * share / 2);
       },
       chord * chord);
-  for (std::size_t i = 0; i < 4; ++i)
-    kernel.angle[i] = static_cast<float>(angle[i + 1] / (2 * sigma_r * sigma_r));
-  const auto exponential = interpolate<6>([](double s) { return std::exp(-s); }, 1.001);
-  for (std::size_t i = 0; i < 6; ++i)
-    kernel.exponential[i] = static_cast<float>(exponential[i] * kWeightUnits);
-  kernel.exponential[0] += static_cast<float>(kMantissa + 1);
+  for (int i = 0; i < 5; ++i) {
+    const double scale = kWeightUnits / std::pow(sigma_t, 2 * i);
+    kernel.translation[i] = static_cast<float>(translation[i] * scale);
+    kernel.rotation[i] = static_cast<float>(rotation[i]);
+  }
   return kernel;
 }
 

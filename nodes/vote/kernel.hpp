@@ -48,9 +48,8 @@ struct Kernel {
   float max_dt2;         ///< sigma_t^2
   float max_e2;          ///< squared chord of an angle of sigma_R
   float min_cosine;      ///< between quaternions that may be that near; a trifle less
-  float per_dt2;         ///< 1 / 2 sigma_t^2
-  float angle[4];        ///< d_R^2 / 2 sigma_R^2 = e2 (angle[0] + angle[1] e2 + ...)
-  float exponential[6];  ///< 2^22 exp(-s) + 2^23 = exponential[0] + exponential[1] s + ...
+  float translation[5];  ///< 2^22 exp(-d_t^2 / 2 sigma_t^2) as a polynomial in d_t^2
+  float rotation[5];     ///< exp(-d_R^2 / 2 sigma_R^2) as one in the squared chord
 };
 
 Kernel make_kernel(Bandwidth bandwidth);
@@ -72,17 +71,18 @@ inline float squared_chord(const VotePoint& a, const VotePoint& b, float sign) {
   return (dw * dw + dx * dx) + (dy * dy + dz * dz);
 }
 
-/// The weight of a neighbour, in units. The last sum is between 2^23 and 2^24, where floats are
-/// whole numbers: its mantissa is the weight.
+/// a[0] + a[1] x + ... + a[4] x^4
+inline float polynomial(const float (&a)[5], float x) {
+  const float x2 = x * x;
+  return (a[0] + a[1] * x) + ((a[2] + a[3] * x) + a[4] * x2) * x2;
+}
+
+constexpr float kWholeNumbers = 1U << 23U;  // from here to twice that, floats are whole numbers
+
+/// The weight of a neighbour, in units: the mantissa of a float that is a whole number.
 inline std::uint32_t weight_units(const Kernel& k, float dt2, float e2) {
-  const float e4 = e2 * e2;
-  const float angle = (k.angle[0] + k.angle[1] * e2) + (k.angle[2] + k.angle[3] * e2) * e4;
-  const float s = angle * e2 + dt2 * k.per_dt2;
-  const float s2 = s * s;
-  const float upper =
-      (k.exponential[2] + k.exponential[3] * s) + (k.exponential[4] + k.exponential[5] * s) * s2;
-  const float sum = (k.exponential[0] + k.exponential[1] * s) + upper * s2;
-  return std::bit_cast<std::uint32_t>(sum) & kMantissa;
+  const float units = polynomial(k.translation, dt2) * polynomial(k.rotation, e2);
+  return std::bit_cast<std::uint32_t>(units + kWholeNumbers) & kMantissa;
 }
 
 /// The weight of b in the density at a, in units; 0 if b is not a neighbour of a. Symmetric, and

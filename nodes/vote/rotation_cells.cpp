@@ -49,34 +49,61 @@ class ChartView {
 
 }  // namespace
 
-RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth) {
-  const auto cosine = static_cast<double>(kernel.min_cosine);
-  const double sine = std::sqrt(1 - cosine * cosine);
-  // A quaternion of chart k has x_k >= 1/2 (up to its norm), hence lies within 60 deg of the axis
-  // k.
-  const double chart_limit = 0.5 * cosine - std::sqrt(0.75) * sine - 1e-4;
+RotationBall reach_of(const Kernel& kernel, const VotePoint* votes, std::size_t count) {
+  const auto quaternion = [votes](std::size_t i) {
+    const VotePoint& v = votes[i];
+    return std::array<double, 4>{static_cast<double>(v.qw), static_cast<double>(v.qx),
+                                 static_cast<double>(v.qy), static_cast<double>(v.qz)};
+  };
+  const auto product = [](const std::array<double, 4>& a, const std::array<double, 4>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+  };
+  RotationBall ball{quaternion(0), 1};
+  for (std::size_t i = 1; i < count; ++i) {
+    const std::array<double, 4> next = quaternion(i);
+    const double sign = product(next, quaternion(0)) < 0 ? -1 : 1;
+    for (std::size_t k = 0; k < 4; ++k) ball.center[k] += sign * next[k];
+  }
+  const double length = std::sqrt(product(ball.center, ball.center));
+  for (double& number : ball.center) number /= length;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<double, 4> q = quaternion(i);
+    ball.cosine =
+        std::min(ball.cosine, std::abs(product(ball.center, q)) / std::sqrt(product(q, q)));
+  }
+  // The angles of the votes from the centre and of the kernel add up.
+  const auto reach = static_cast<double>(kernel.min_cosine);
+  const auto sine = [](double cosine) { return std::sqrt(1 - cosine * cosine); };
+  ball.cosine = ball.cosine * reach - sine(ball.cosine) * sine(reach);
+  return ball;
+}
+
+std::uint32_t finest_rotation_cells(Bandwidth bandwidth) {
   // One of n cells per axis is about 3 / n rad wide; about sigma_R / 1.3 was fastest (3 to 5
   // alike).
   const double cells = 4 / static_cast<double>(bandwidth.sigma_r);
-  return {sine, chart_limit, std::clamp(static_cast<int>(cells), 1, 24)};
+  return static_cast<std::uint32_t>(std::clamp(static_cast<int>(cells), 1, 24));
 }
 
-// The quaternions x within the angle alpha of p (sine = sin alpha) form a cone. The hyperplane
-// x_a = u x_k touches it where |p_a - u p_k| = sine sqrt(1 + u^2); the two solutions u bound x_a /
-// x_k over the cone as long as it stays on the side x_k > 0, that is for p_k > sine. Where it does
-// not, the whole chart is taken.
-RotationBoxes rotation_boxes(const VotePoint& vote, const RotationReach& reach) {
-  const std::array<double, 4> q{static_cast<double>(vote.qw), static_cast<double>(vote.qx),
-                                static_cast<double>(vote.qy), static_cast<double>(vote.qz)};
+// The quaternions x within the angle alpha of p form a cone. The hyperplane x_a = u x_k touches it
+// where |p_a - u p_k| = sin alpha sqrt(1 + u^2); the two solutions u bound x_a / x_k over the cone
+// as long as it stays on the side x_k > 0, that is for p_k > sin alpha. Where it does not, the
+// whole chart is taken.
+RotationBoxes rotation_boxes(const RotationBall& ball) {
+  const std::array<double, 4>& q = ball.center;
+  const double sine = std::sqrt(std::max(0.0, 1 - ball.cosine * ball.cosine));
+  // A quaternion of chart k has x_k >= 1/2 (up to its norm), hence lies within 60 deg of the axis
+  // k. A ball of 60 deg or more reaches every chart.
+  const double limit = ball.cosine > 0.5 ? 0.5 * ball.cosine - std::sqrt(0.75) * sine - 1e-4 : -2;
   RotationBoxes boxes;
   for (std::uint32_t k = 0; k < kCharts; ++k) {
     RotationBox box{k, {0, 0, 0}, {kLevels - 1, kLevels - 1, kLevels - 1}};
     bool reached = true;
-    if (std::abs(q[k]) < -reach.chart_limit) {
+    if (std::abs(q[k]) < -limit) {
       // from q and from -q: all of it
-    } else if (std::abs(q[k]) >= reach.chart_limit) {
+    } else if (std::abs(q[k]) >= limit) {
       const double sign = q[k] < 0 ? -1 : 1;  // q and -q are one rotation
-      const ChartView view(sign * q[k], reach.sine);
+      const ChartView view(sign * q[k], sine);
       for (std::uint32_t i = 0; i < 3 && reached; ++i)
         reached = view.level_range(sign * q[(k + i + 1) % 4], box.low[i], box.high[i]);
     } else {

@@ -26,19 +26,28 @@ constexpr int kLevels = 256;
 
 inline std::uint32_t chart_of(RotationCode code) { return code >> 24U; }
 
-/// The codes of unit quaternions, the columns of which are `stride` apart: w, x, y, z. Up to
-/// kScanPadding numbers behind the last are read and written.
-void encode_rotations(const float* quaternions, std::size_t stride, std::size_t count,
+/// The codes of unit quaternions: w, x, y, z. Numbers that are no unit quaternion give some code.
+void encode_rotations(const std::array<const float*, 4>& quaternions, std::size_t count,
                       RotationCode* codes);
 
-/// The ball of rotations around a quaternion that a kernel can reach, as constants.
-struct RotationReach {
-  double sine;         ///< of half the angle, widened so that rounding cannot lose a neighbour
-  double chart_limit;  ///< a chart is out of reach where the centre's component is below this
-  int cells_per_axis;  ///< measured: finer grids cut rows too short for wide vectors
+/// Codes of rotations near each other give numbers near each other; below 2^11.
+inline std::uint32_t rotation_order(RotationCode code) {
+  // The three highest bits of each level, interleaved.
+  const auto spread = [code](unsigned shift) {
+    constexpr std::array<std::uint32_t, 8> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
+    return kSpread[(code >> shift) & 7U];
+  };
+  return (chart_of(code) & 3U) << 9U | spread(21) << 2U | spread(13) << 1U | spread(5);
+}
+
+/// All rotations within an angle of a quaternion.
+struct RotationBall {
+  std::array<double, 4> center;  ///< w, x, y, z, unit
+  double cosine;                 ///< of half the angle
 };
 
-RotationReach make_rotation_reach(const Kernel& kernel, Bandwidth bandwidth);
+/// A ball that holds every rotation that the kernel can reach from any of these votes.
+RotationBall reach_of(const Kernel& kernel, const VotePoint* votes, std::size_t count);
 
 /// A box of levels of one chart, borders included.
 struct RotationBox {
@@ -46,12 +55,15 @@ struct RotationBox {
   std::array<std::uint32_t, 3> low{}, high{};
 };
 
-/// Boxes that together hold every rotation within reach of a vote, at most one per chart.
+/// Boxes that together hold every rotation of a ball, at most one per chart.
 struct RotationBoxes {
   std::array<RotationBox, kCharts> items;
   std::size_t count = 0;
 };
 
-RotationBoxes rotation_boxes(const VotePoint& vote, const RotationReach& reach);
+RotationBoxes rotation_boxes(const RotationBall& ball);
+
+/// Cells per axis beyond which rows of cells get too short for wide vectors: measured.
+std::uint32_t finest_rotation_cells(Bandwidth bandwidth);
 
 }  // namespace posevote

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compiled once per instruction set by Highway; the best is chosen when the program runs. Raw
 // pointers only: a type shared with code built for another instruction set must not be instantiated
-// here. The arithmetic mirrors kernel.hpp operation for operation, with Mul and Add and never a
-// fused MulAdd; that is for looking alone, which decides nothing.
+// here. The arithmetic mirrors kernel.hpp operation for operation, with Mul and Add; fused are only
+// products that are exact, and those that say where to look, which decide nothing.
 #include "nodes/vote/scan_votes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nodes/vote/scan_votes.cpp"
@@ -21,41 +22,30 @@ using Units = hn::RebindToUnsigned<Floats>;
 using F = hn::Vec<Floats>;
 using U = hn::Vec<Units>;
 
+static_assert(kBlock % HWY_LANES(float) == 0, "a block is whole vectors");
+
+HWY_INLINE F polynomial(const float (&a)[5], F x) {
+  const Floats d;
+  const F x2 = hn::Mul(x, x);
+  const F lower = hn::Add(hn::Set(d, a[0]), hn::Mul(hn::Set(d, a[1]), x));
+  const F upper = hn::Add(hn::Add(hn::Set(d, a[2]), hn::Mul(hn::Set(d, a[3]), x)),
+                          hn::Mul(hn::Set(d, a[4]), x2));
+  return hn::Add(lower, hn::Mul(upper, x2));
+}
+
 /// weight_units of kernel.hpp where `near`, else 0.
 HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2, hn::Mask<Floats> near) {
-  const Floats d;
-  const auto line = [d](const float* a, F x) HWY_ATTR {  // a[0] + a[1] x
-    return hn::Add(hn::Set(d, a[0]), hn::Mul(hn::Set(d, a[1]), x));
-  };
-  const F e4 = hn::Mul(e2, e2);
-  const F angle = hn::Add(line(k.angle, e2), hn::Mul(line(k.angle + 2, e2), e4));
-  const F s = hn::Add(hn::Mul(angle, e2), hn::Mul(dt2, hn::Set(d, k.per_dt2)));
-  const F s2 = hn::Mul(s, s);
-  const F upper = hn::Add(line(k.exponential + 2, s), hn::Mul(line(k.exponential + 4, s), s2));
-  const F sum = hn::Add(line(k.exponential, s), hn::Mul(upper, s2));
-  const U bits = hn::And(hn::BitCast(Units(), sum), hn::Set(Units(), kMantissa));
-  return hn::IfThenElseZero(hn::RebindMask(Units(), near), bits);
+  const F units = hn::Mul(polynomial(k.translation, dt2), polynomial(k.rotation, e2));
+  const F whole = hn::Add(hn::IfThenElseZero(near, units), hn::Set(Floats(), kWholeNumbers));
+  return hn::And(hn::BitCast(Units(), whole), hn::Set(Units(), kMantissa));
 }
 
-constexpr std::size_t kMaskBytes = 8;  // read and written at once, however few there are
-
-/// (a - b)^2
-HWY_INLINE F squared_difference(F a, const float* b) {
-  const F difference = hn::Sub(a, hn::LoadU(Floats(), b));
-  return hn::Mul(difference, difference);
-}
-
-/// A vector with votes whose rotations may be near, and masks of its lanes.
-struct Found {
-  std::uint32_t first;
-  std::uint8_t in_range[kMaskBytes];
-  std::uint8_t negative[kMaskBytes];  ///< of which -q is nearer
-};
+HWY_INLINE F squared(F a) { return hn::Mul(a, a); }
 
 /// A query, each number in every lane.
 class Query {
  public:
-  HWY_INLINE Query(const Kernel& k, const VotePoint& p) {
+  HWY_INLINE Query(const Kernel& kernel, const VotePoint& p) : kernel_(kernel) {
     const Floats d;
     tx_ = hn::Set(d, p.tx);
     ty_ = hn::Set(d, p.ty);
@@ -64,130 +54,170 @@ class Query {
     qx_ = hn::Set(d, p.qx);
     qy_ = hn::Set(d, p.qy);
     qz_ = hn::Set(d, p.qz);
-    min_cosine_ = hn::Set(d, k.min_cosine);
-    max_dt2_ = hn::Set(d, k.max_dt2);
-    max_e2_ = hn::Set(d, k.max_e2);
+    min_cosine_ = hn::Set(d, kernel.min_cosine);
+    max_dt2_ = hn::Set(d, kernel.max_dt2);
+    max_e2_ = hn::Set(d, kernel.max_e2);
   }
 
-  /// To look first and weigh then spares the processor branches that it cannot foresee. Vectors
-  /// begin at multiples of their length: others would lie across two lines of the cache.
-  HWY_INLINE Found* find_near(const VoteColumns& c, IndexRange range, Found* found) const {
-    const Floats d;
-    const std::size_t lanes = hn::Lanes(d);
-    const float *w = c[3], *x = c[4], *y = c[5], *z = c[6];
-    const auto look = [&](std::size_t i, hn::Mask<Floats> in_range) HWY_ATTR {
-      F sum = hn::Mul(qw_, hn::LoadU(d, w + i));
-      sum = hn::MulAdd(qx_, hn::LoadU(d, x + i), sum);
-      sum = hn::MulAdd(qy_, hn::LoadU(d, y + i), sum);
-      sum = hn::MulAdd(qz_, hn::LoadU(d, z + i), sum);
-      found->first = static_cast<std::uint32_t>(i);
-      hn::StoreMaskBits(d, in_range, found->in_range);
-      hn::StoreMaskBits(d, hn::Lt(sum, hn::Zero(d)), found->negative);
-      found += !hn::AllFalse(d, hn::Ge(hn::Abs(sum), min_cosine_));
-    };
-    std::size_t i = range.begin / lanes * lanes;
-    const std::size_t end = range.end;
-    look(i, hn::AndNot(hn::FirstN(d, range.begin - i), hn::FirstN(d, std::min(lanes, end - i))));
-    for (i += lanes; i + lanes <= end; i += lanes) look(i, hn::FirstN(d, lanes));
-    if (i < end) look(i, hn::FirstN(d, end - i));
-    return found;
+  /// Whether any of these rotations may be near.
+  HWY_INLINE bool may_meet(F w, F x, F y, F z) const {
+    return !hn::AllFalse(Floats(), hn::Ge(hn::Abs(cosine(w, x, y, z)), min_cosine_));
   }
 
-  /// The weights of a vector; 0 for the votes that are not near.
-  HWY_INLINE U weights(const Kernel& kernel, const VoteColumns& c, const Found& vector) const {
+  /// The weights of the votes from i on, as many as a vector has lanes; 0 where they are not near.
+  HWY_INLINE U weights(const VoteColumns& votes, std::size_t i) const {
     const Floats d;
-    const std::size_t i = vector.first;
-    const F xy = hn::Add(squared_difference(tx_, c[0] + i), squared_difference(ty_, c[1] + i));
-    const F dt2 = hn::Add(xy, squared_difference(tz_, c[2] + i));
-    const F sign = hn::IfThenElseZero(hn::LoadMaskBits(d, vector.negative), hn::Set(d, -0.0F));
-    const F wx = hn::Add(squared_difference(hn::Xor(qw_, sign), c[3] + i),
-                         squared_difference(hn::Xor(qx_, sign), c[4] + i));
-    const F yz = hn::Add(squared_difference(hn::Xor(qy_, sign), c[5] + i),
-                         squared_difference(hn::Xor(qz_, sign), c[6] + i));
+    const F dx = hn::Sub(tx_, hn::LoadU(d, votes[0] + i));
+    const F dy = hn::Sub(ty_, hn::LoadU(d, votes[1] + i));
+    const F dz = hn::Sub(tz_, hn::LoadU(d, votes[2] + i));
+    const F dt2 = hn::Add(hn::Add(squared(dx), squared(dy)), squared(dz));
+    const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
+    const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
+    // Of q and -q the nearer; a product with 1 or -1 is exact, fused or not.
+    const F sign = hn::CopySignToAbs(hn::Set(d, 1), cosine(w, x, y, z));
+    const F wx =
+        hn::Add(squared(hn::NegMulAdd(sign, w, qw_)), squared(hn::NegMulAdd(sign, x, qx_)));
+    const F yz =
+        hn::Add(squared(hn::NegMulAdd(sign, y, qy_)), squared(hn::NegMulAdd(sign, z, qz_)));
     const F e2 = hn::Add(wx, yz);
-    const auto near = hn::And(hn::Le(dt2, max_dt2_), hn::Le(e2, max_e2_));
-    return weight_units(kernel, dt2, e2, hn::And(near, hn::LoadMaskBits(d, vector.in_range)));
+    return weight_units(kernel_, dt2, e2, hn::And(hn::Le(dt2, max_dt2_), hn::Le(e2, max_e2_)));
   }
 
  private:
+  /// Of the angle between the quaternions. Fused: it only says where to look and which sign.
+  HWY_INLINE F cosine(F w, F x, F y, F z) const {
+    const F sum = hn::MulAdd(qx_, x, hn::Mul(qw_, w));
+    return hn::MulAdd(qz_, z, hn::MulAdd(qy_, y, sum));
+  }
+
+  const Kernel& kernel_;
   F tx_, ty_, tz_, qw_, qx_, qy_, qz_, min_cosine_, max_dt2_, max_e2_;
 };
 
-/// Most vectors that find_near is asked for at a time, but for one that a range may have more as it
-/// begins within a vector.
-constexpr std::size_t kRoom = 128;
+/// The vectors that a query may meet: where each begins.
+struct Found {
+  std::uint32_t* first;
+  std::size_t count;
+};
 
-/// Of at most kMostWeights vectors.
-template <bool kBack>
-HWY_INLINE std::uint64_t weigh(const Kernel& kernel, const VoteColumns& columns, const Query& query,
-                               const Found* found, std::size_t size, std::uint32_t* back) {
-  const Units units;
-  U total = hn::Zero(units);
-  for (const Found* one = found; one < found + size; ++one) {
-    const U weights = query.weights(kernel, columns, *one);
-    total = hn::Add(total, weights);
-    if constexpr (kBack) {
-      std::uint32_t* here = back + one->first;
-      hn::StoreU(hn::Add(hn::LoadU(units, here), weights), units, here);
+/// To look first and weigh then spares the processor branches that it cannot foresee; a group
+/// shares the loads.
+HWY_INLINE void find(const Query (&queries)[kGroup], const VoteColumns& votes, const Blocks& blocks,
+                     Found (&found)[kGroup]) {
+  const Floats d;
+  for (std::size_t r = 0; r < blocks.count; ++r) {
+    const std::uint32_t end = blocks.ranges[r].end * kBlock;
+    for (std::uint32_t i = blocks.ranges[r].begin * kBlock; i < end;
+         i += static_cast<std::uint32_t>(hn::Lanes(d))) {
+      const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
+      const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
+      bool may_meet[kGroup];  // all before the first is written: that might be what is read
+      for (std::size_t k = 0; k < kGroup; ++k) may_meet[k] = queries[k].may_meet(w, x, y, z);
+      for (std::size_t k = 0; k < kGroup; ++k) {
+        found[k].first[found[k].count] = i;
+        found[k].count += may_meet[k];
+      }
     }
   }
+}
+
+HWY_INLINE std::uint64_t sum_of_lanes(U total) {
   HWY_ALIGN std::uint32_t lanes[HWY_LANES(std::uint32_t)];
-  hn::Store(total, units, lanes);
+  hn::Store(total, Units(), lanes);
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < hn::Lanes(units); ++i) sum += lanes[i];
+  for (std::size_t i = 0; i < hn::Lanes(Units()); ++i) sum += lanes[i];
   return sum;
 }
 
-template <bool kBack>
-HWY_INLINE std::uint64_t scan_ranges(const Kernel& kernel, const VoteColumns& columns,
-                                     const VotePoint& point, const IndexRange* ranges,
-                                     std::size_t range_count, std::uint32_t* back) {
-  Found found[2 * kRoom + 2];  // one is free
-  static_assert(2 * kRoom + 1 <= kMostWeights);
-  const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
-  const Query query(kernel, point);
-  std::size_t size = 0;
+/// Adds what each vote weighs to `back`, unless that is null.
+template <bool kMutual>
+HWY_INLINE std::uint64_t weigh(const Query& query, const VoteColumns& votes, const Found& found,
+                               std::uint32_t* back) {
+  const Units units;
   std::uint64_t sum = 0;
-  for (std::size_t r = 0; r < range_count; ++r) {
-    IndexRange part = ranges[r];
-    for (; part.begin < ranges[r].end; part.begin = part.end) {
-      part.end = std::min(ranges[r].end - part.begin, step) + part.begin;
-      size = static_cast<std::size_t>(query.find_near(columns, part, found + size) - found);
-      if (size <= kRoom) continue;
-      sum += weigh<kBack>(kernel, columns, query, found, size, back);
-      size = 0;
+  for (std::size_t k = 0; k < found.count;) {
+    const std::size_t end = std::min<std::size_t>(found.count, k + kMostWeights);
+    U total = hn::Zero(units);
+    for (; k < end; ++k) {
+      const std::uint32_t i = found.first[k];
+      const U weights = query.weights(votes, i);
+      total = hn::Add(total, weights);
+      if constexpr (kMutual)
+        hn::StoreU(hn::Add(hn::LoadU(units, back + i), weights), units, back + i);
+    }
+    sum += sum_of_lanes(total);
+  }
+  return sum;
+}
+
+void scan(const Kernel& kernel, const VoteColumns& votes, const VotePoint* queries,
+          std::size_t count, const Blocks& blocks, const Mutual* mutual, std::uint32_t* room,
+          std::uint64_t* sums) {
+  std::size_t each = 1;
+  for (std::size_t r = 0; r < blocks.count; ++r)
+    each += (blocks.ranges[r].end - blocks.ranges[r].begin) * (kBlock / hn::Lanes(Floats()));
+  // Copies, for what is written cannot be they, as far as the compiler knows.
+  const Kernel constants = kernel;
+  const VoteColumns columns = votes;
+  const auto query = [&](std::size_t k)
+                         HWY_ATTR { return Query(constants, queries[std::min(k, count - 1)]); };
+  const Query group[kGroup] = {query(0), query(1), query(2), query(3)};
+  Found found[kGroup] = {{room, 0}, {room + each, 0}, {room + 2 * each, 0}, {room + 3 * each, 0}};
+  find(group, columns, blocks, found);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (mutual == nullptr) {
+      sums[k] = weigh<false>(group[k], columns, found[k], nullptr);
+    } else {
+      mutual->leaving[k] = std::numeric_limits<float>::infinity();
+      sums[k] = weigh<true>(group[k], columns, found[k], mutual->back);
     }
   }
-  return sum + weigh<kBack>(kernel, columns, query, found, size, back);
 }
 
-std::uint64_t scan(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
-                   const IndexRange* ranges, std::size_t range_count, std::uint32_t* back) {
-  return back == nullptr ? scan_ranges<false>(kernel, columns, point, ranges, range_count, back)
-                         : scan_ranges<true>(kernel, columns, point, ranges, range_count, back);
-}
-
-std::size_t collect(const Kernel& kernel, const VoteColumns& columns, const VotePoint& point,
+std::size_t collect(const Kernel& kernel, const VoteColumns& votes, const VotePoint& point,
                     IndexRange range, std::uint32_t* places, std::uint32_t* weights) {
+  const Floats d;
   const Units units;
-  const auto step = static_cast<std::uint32_t>(kRoom * hn::Lanes(Floats()));
+  const std::size_t lanes = hn::Lanes(units);
   const Query query(kernel, point);
   const U lane = hn::Iota(units, 0);
-  Found found[kRoom + 2];
   std::size_t count = 0;
-  for (IndexRange part = range; part.begin < range.end; part.begin = part.end) {
-    part.end = std::min(range.end - part.begin, step) + part.begin;
-    const Found* end = query.find_near(columns, part, found);
-    for (const Found* one = found; one < end; ++one) {
-      const U weight = query.weights(kernel, columns, *one);
-      const auto near = hn::Ne(weight, hn::Zero(units));
-      const U place = hn::Add(lane, hn::Set(units, one->first));
-      hn::StoreU(hn::Compress(place, near), units, places + count);
-      hn::StoreU(hn::Compress(weight, near), units, weights + count);
-      count += hn::CountTrue(units, near);
-    }
+  for (std::size_t i = range.begin; i < range.end; i += lanes) {
+    const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
+    const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
+    if (!query.may_meet(w, x, y, z)) continue;
+    const U weight = query.weights(votes, i);
+    const auto near =
+        hn::And(hn::Ne(weight, hn::Zero(units)), hn::FirstN(units, std::min(lanes, range.end - i)));
+    const U place = hn::Add(lane, hn::Set(units, static_cast<std::uint32_t>(i)));
+    hn::StoreU(hn::Compress(place, near), units, places + count);
+    hn::StoreU(hn::Compress(weight, near), units, weights + count);
+    count += hn::CountTrue(units, near);
   }
   return count;
+}
+
+/// Of one coordinate.
+HWY_INLINE void range_of(const float* numbers, IndexRange range, float* low, float* high) {
+  const Floats d;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  F lowest = hn::Set(d, numbers[range.begin]), highest = lowest;
+  std::uint32_t i = range.begin;
+  for (; i + lanes <= range.end; i += lanes) {
+    const F next = hn::LoadU(d, numbers + i);
+    lowest = hn::Min(lowest, next);
+    highest = hn::Max(highest, next);
+  }
+  *low = hn::GetLane(hn::MinOfLanes(d, lowest));
+  *high = hn::GetLane(hn::MaxOfLanes(d, highest));
+  for (; i < range.end; ++i) {
+    *low = std::min(*low, numbers[i]);
+    *high = std::max(*high, numbers[i]);
+  }
+}
+
+void bound(const VoteColumns& votes, IndexRange range, VoteBox* box) {
+  for (std::size_t a = 0; a < 3; ++a) range_of(votes[a], range, box->low + a, box->high + a);
 }
 
 /// The squared distance of a coordinate from an interval. Never above that from any number inside:
@@ -234,16 +264,24 @@ namespace posevote {
 
 HWY_EXPORT(scan);
 HWY_EXPORT(collect);
+HWY_EXPORT(bound);
 HWY_EXPORT(copy);
 
-std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         const IndexRange* ranges, std::size_t range_count, std::uint32_t* back) {
-  return HWY_DYNAMIC_DISPATCH(scan)(kernel, columns, query, ranges, range_count, back);
+void scan_votes(const Kernel& kernel, const VoteColumns& votes, const VotePoint* queries,
+                std::size_t count, const Blocks& blocks, const Mutual* mutual, std::uint32_t* found,
+                std::uint64_t* sums) {
+  HWY_DYNAMIC_DISPATCH(scan)(kernel, votes, queries, count, blocks, mutual, found, sums);
 }
 
 std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
                          IndexRange range, std::uint32_t* places, std::uint32_t* weights) {
   return HWY_DYNAMIC_DISPATCH(collect)(kernel, columns, query, range, places, weights);
+}
+
+VoteBox bounding_box(const VoteColumns& votes, IndexRange range) {
+  VoteBox box;
+  HWY_DYNAMIC_DISPATCH(bound)(votes, range, &box);
+  return box;
 }
 
 std::size_t copy_near(const Kernel& kernel, const VoteColumns& columns, IndexRange range,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops of the density, as wide as the processor allows: one vote against runs of others,
-// and which votes are near a box.
+// The inner loops of the density, as wide as the processor allows: a few votes against blocks of
+// others, and which votes are near a box.
 #pragma once
 
 #include <cstddef>
@@ -27,15 +27,37 @@ struct IndexRange {
   std::uint32_t begin = 0, end = 0;
 };
 
-/// Whose sum 32 bits hold: so many scans may add to `back` before it is emptied.
+/// Votes are looked at in blocks: vote i lies in block i / kBlock. All of a block are read.
+constexpr std::uint32_t kBlock = 16;
+
+/// Queries that look at votes together.
+constexpr std::uint32_t kGroup = 4;
+
+/// Of the votes that a group looks at, each is looked at once.
+struct Blocks {
+  const IndexRange* ranges;  ///< of blocks
+  std::size_t count;         ///< of ranges
+};
+
+/// Numbers that `found` of scan_votes holds for each block: where vectors have one lane, all votes.
+constexpr std::size_t kFoundPerBlock = kGroup * kBlock;
+
+/// Whose sum 32 bits hold: so many queries may add to `back` before it is emptied.
 constexpr std::uint32_t kMostWeights = 1023;
 
-/// The sum over all votes of the ranges of their weights at the query, in units. Equals
-/// kernel_units bit for bit on every processor. Where `back` is not null, each vote's weight is
-/// added to its place there, too, padded as the columns are: the kernel is symmetric, and what a
-/// vote weighs at the query the query weighs at the vote.
-std::uint64_t scan_votes(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
-                         const IndexRange* ranges, std::size_t range_count, std::uint32_t* back);
+/// Scans for one set among itself: what a vote weighs at a query the query weighs at the vote.
+struct Mutual {
+  float* leaving;  ///< of the queries, which lie one behind the other in the table: the first's
+                   ///< place in the first column. Each leaves the table before it is weighed.
+  std::uint32_t* back;  ///< beside the table: each vote's weight at the queries is added to it
+};
+
+/// The sums over all votes of the blocks of their weights at each query, in units, `count` <=
+/// kGroup of them. Each equals kernel_units bit for bit on every processor. `mutual` may be null.
+/// `found`: room for kFoundPerBlock numbers a block, and kGroup.
+void scan_votes(const Kernel& kernel, const VoteColumns& votes, const VotePoint* queries,
+                std::size_t count, const Blocks& blocks, const Mutual* mutual, std::uint32_t* found,
+                std::uint64_t* sums);
 
 /// Writes the places of the range's votes that are neighbours of the query, ascending, and their
 /// weights in units; returns how many. Both have room for all and kScanPadding more.
@@ -46,6 +68,9 @@ std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const
 struct VoteBox {
   float low[3], high[3];
 };
+
+/// Of a range that is not empty.
+VoteBox bounding_box(const VoteColumns& votes, IndexRange range);
 
 /// Copies the votes of the range that can be neighbours of a vote in the box to `to`, whose
 /// columns are `stride` apart, and their numbers to `numbers`; returns how many. Both have room for

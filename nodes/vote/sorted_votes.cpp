@@ -29,15 +29,18 @@ struct CellRange {
 
 constexpr auto kAxes = {&TranslationCell::x, &TranslationCell::y, &TranslationCell::z};
 
-CellRange range_of(const std::vector<TranslationCell>& cells,
-                   const std::vector<std::uint32_t>& votes) {
-  CellRange range{cells[votes.front()], cells[votes.front()]};
-  for (const std::uint32_t v : votes)
-    for (const auto axis : kAxes) {
-      range.low.*axis = std::min(range.low.*axis, cells[v].*axis);
-      range.high.*axis = std::max(range.high.*axis, cells[v].*axis);
+/// Of usable votes, at least one.
+CellRange range_of(const VoteSet& votes, const std::vector<std::uint32_t>& usable,
+                   Bandwidth bandwidth) {
+  VotePoint low = vote_point(votes, usable.front()), high = low;
+  for (const std::uint32_t v : usable)
+    for (const auto& [axis, column] : {std::pair{&VotePoint::tx, &votes.tx},
+                                       {&VotePoint::ty, &votes.ty},
+                                       {&VotePoint::tz, &votes.tz}}) {
+      low.*axis = std::min(low.*axis, (*column)[v]);
+      high.*axis = std::max(high.*axis, (*column)[v]);
     }
-  return range;
+  return {translation_cell(low, bandwidth), translation_cell(high, bandwidth)};
 }
 
 void open_cell(SortedVotes& sorted, const TranslationCell& cell, std::size_t first) {
@@ -45,37 +48,43 @@ void open_cell(SortedVotes& sorted, const TranslationCell& cell, std::size_t fir
   sorted.cell_begin.push_back(static_cast<std::uint32_t>(first));
 }
 
-/// Brings the numbers of `sorted` into the order of their cells, those of one cell in their own,
-/// and notes where each cell begins.
+/// Brings the numbers of `sorted` into the order of their cells, those of one cell in that of their
+/// rotations, and notes where each cell begins.
 template <class Number>
-void sort_by_cell(const std::vector<TranslationCell>& cells, const CellRange& range,
-                  SortedVotes& sorted) {
+void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
+                  const CellRange& range, SortedVotes& sorted) {
+  const auto cell_of = [&](std::uint32_t vote) {
+    return translation_cell(vote_point(votes, vote), sorted.bandwidth);
+  };
   std::vector<Member<Number>> members(sorted.size());
   graph::parallel_for(members.size(), 4096, [&](std::size_t i) {
-    const std::uint32_t vote = sorted.numbers[i];
-    Number cell = 0;
+    const TranslationCell cell = cell_of(sorted.numbers[i]);
+    Number number = 0;
     for (const auto axis : kAxes)
-      cell = cell * static_cast<Number>(range.count(axis)) +
-             static_cast<Number>(std::int64_t{cells[vote].*axis} - range.low.*axis);
-    members[i] = {cell, vote};
+      number = number * static_cast<Number>(range.count(axis)) +
+               static_cast<Number>(std::int64_t{cell.*axis} - range.low.*axis);
+    members[i] = {number, sorted.numbers[i]};
   });
+  radix_sort(members,
+             [&codes](const Member<Number>& one) { return rotation_order(codes[one.vote]); });
   radix_sort(members, [](const Member<Number>& one) { return one.cell; });
   for (std::size_t i = 0; i < members.size(); ++i) {
     sorted.numbers[i] = members[i].vote;
     if (i == 0 || members[i].cell != members[i - 1].cell)
-      open_cell(sorted, cells[members[i].vote], i);
+      open_cell(sorted, cell_of(members[i].vote), i);
   }
 }
 
-void sort_by_cell(const std::vector<TranslationCell>& cells, SortedVotes& sorted) {
+void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
+                  SortedVotes& sorted) {
   if (!sorted.numbers.empty()) {
-    const CellRange range = range_of(cells, sorted.numbers);
+    const CellRange range = range_of(votes, sorted.numbers, sorted.bandwidth);
     double count = 1;
     for (const auto axis : kAxes) count *= static_cast<double>(range.count(axis));
     if (count < 4e9)
-      sort_by_cell<std::uint32_t>(cells, range, sorted);
+      sort_by_cell<std::uint32_t>(votes, codes, range, sorted);
     else
-      sort_by_cell<LargeNumber>(cells, range, sorted);
+      sort_by_cell<LargeNumber>(votes, codes, range, sorted);
   }
   sorted.cell_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
 }
@@ -135,24 +144,20 @@ VotePoint vote_point(const VoteSet& votes, std::size_t v) {
 
 SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   const std::size_t count = votes.tx.size();
-  std::vector<TranslationCell> cells(count);
-  std::vector<char> usable(count);
-  graph::parallel_for(count, 4096, [&](std::size_t v) {
-    const VotePoint point = vote_point(votes, v);
-    usable[v] = is_usable(point, bandwidth);
-    if (usable[v]) cells[v] = translation_cell(point, bandwidth);
-  });
   SortedVotes sorted;
   sorted.bandwidth = bandwidth;
   sorted.numbers.reserve(count);
   for (std::uint32_t v = 0; v < count; ++v)
-    if (usable[v]) sorted.numbers.push_back(v);
-  sort_by_cell(cells, sorted);
+    if (is_usable(vote_point(votes, v), bandwidth)) sorted.numbers.push_back(v);
+  std::vector<RotationCode> codes(count);
+  encode_rotations({votes.qw.data(), votes.qx.data(), votes.qy.data(), votes.qz.data()}, count,
+                   codes.data());
+  sort_by_cell(votes, codes, sorted);
   take({votes.tx.data(), votes.ty.data(), votes.tz.data(), votes.qw.data(), votes.qx.data(),
         votes.qy.data(), votes.qz.data()},
        sorted.numbers, sorted.votes);
-  sorted.codes.resize(sorted.size() + kScanPadding);
-  encode_rotations(sorted.votes[3], sorted.votes.stride(), sorted.size(), sorted.codes.data());
+  sorted.codes.reserve(sorted.size());
+  for (const std::uint32_t v : sorted.numbers) sorted.codes.push_back(codes[v]);
   return sorted;
 }
 

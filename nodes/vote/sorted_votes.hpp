@@ -24,7 +24,7 @@ struct TranslationCell {
 /// Translations that are neighbours lie in cells that differ by at most 1 along each axis.
 struct SortedVotes {
   Bandwidth bandwidth;
-  VoteTable votes;                        ///< by cell, then by number
+  VoteTable votes;                        ///< by cell, then roughly by rotation
   std::vector<RotationCode> codes;        ///< of each
   std::vector<std::uint32_t> numbers;     ///< of each in the VoteSet
   std::vector<TranslationCell> cells;     ///< occupied ones, ascending

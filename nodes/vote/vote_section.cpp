@@ -5,6 +5,16 @@
 
 namespace posevote {
 
+void add_blocks(IndexRange votes, std::vector<IndexRange>& blocks) {
+  IndexRange added{votes.begin / kBlock, (votes.end + kBlock - 1) / kBlock};
+  if (!blocks.empty()) added.begin = std::max(added.begin, blocks.back().end);
+  if (added.begin >= added.end) return;
+  if (!blocks.empty() && added.begin == blocks.back().end)
+    blocks.back().end = added.end;
+  else
+    blocks.push_back(added);
+}
+
 void VoteSection::sort(const std::vector<RotationCode>& codes, std::uint32_t per_axis,
                        std::vector<std::uint32_t>& places) {
   per_axis_ = per_axis;
@@ -24,7 +34,7 @@ void VoteSection::sort(const std::vector<RotationCode>& codes, std::uint32_t per
 }
 
 void VoteSection::add_rows(const RotationBox& box, std::uint32_t from,
-                           std::vector<IndexRange>& rows) const {
+                           std::vector<IndexRange>& blocks) const {
   const std::uint32_t a_end = coarse(box.high[0]) + 1, b_end = coarse(box.high[1]) + 1;
   const std::uint32_t b_begin = coarse(box.low[1]), c_begin = coarse(box.low[2]);
   const std::uint32_t length = coarse(box.high[2]) + 1 - c_begin;
@@ -32,7 +42,7 @@ void VoteSection::add_rows(const RotationBox& box, std::uint32_t from,
     const std::uint32_t* row = &begin_[cell(box.chart, a, b_begin, c_begin)];
     for (std::uint32_t b = b_begin; b < b_end; ++b, row += per_axis_) {
       const std::uint32_t begin = std::max(row[0], from);
-      if (begin < row[length]) rows.push_back({begin, row[length]});
+      if (begin < row[length]) add_blocks({begin, row[length]}, blocks);
     }
   }
 }

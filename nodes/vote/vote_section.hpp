@@ -9,6 +9,9 @@
 
 namespace posevote {
 
+/// Adds the blocks of a run of votes, each block once: runs come in ascending order.
+void add_blocks(IndexRange votes, std::vector<IndexRange>& blocks);
+
 /// Votes that lie one behind the other in a table: as they came, or sorted by rotation cell.
 class VoteSection {
  public:
@@ -22,8 +25,8 @@ class VoteSection {
   void sort(const std::vector<RotationCode>& codes, std::uint32_t per_axis,
             std::vector<std::uint32_t>& places);
 
-  /// Adds the rows of cells in a box, without the votes before `from`. It must be sorted.
-  void add_rows(const RotationBox& box, std::uint32_t from, std::vector<IndexRange>& rows) const;
+  /// Adds the blocks that hold the cells of a box, but for votes before `from`. It must be sorted.
+  void add_rows(const RotationBox& box, std::uint32_t from, std::vector<IndexRange>& blocks) const;
 
  private:
   std::uint32_t coarse(std::uint32_t level) const { return (level * per_axis_) >> 8U; }

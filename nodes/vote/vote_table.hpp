@@ -4,6 +4,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <cstddef>
+#include <limits>
 
 #include "nodes/vote/scan_votes.hpp"
 
@@ -24,6 +25,14 @@ class VoteTable {
   float* operator[](std::size_t column) { return buffer_.get() + column * stride_; }
   std::size_t stride() const { return stride_; }
   VoteColumns columns() const { return {buffer_.get(), stride_}; }
+
+  /// Makes vote i nobody's neighbour.
+  void remove(std::size_t i) { buffer_[i] = std::numeric_limits<float>::infinity(); }
+
+  /// Of a table of `count` votes: what the last block holds beyond them is nobody's neighbour.
+  void close(std::size_t count) {
+    for (; count % kBlock != 0; ++count) remove(count);
+  }
 
   VotePoint at(std::size_t i) const {
     const float* p = buffer_.get() + i;

@@ -104,13 +104,19 @@ void inner_votes(benchmark::State& state) {
     std::transform(column.begin(), column.end(), votes[c],
                    [c](float x) { return c == 3 ? 1 : 1e-3F * x; });
   }
-  const IndexRange range{0, kItems};
-  std::vector<std::uint32_t> back(kPadded, 0);
+  const IndexRange range{0, kItems / kBlock};
+  std::vector<std::uint32_t> back(kPadded, 0), found(kItems / kBlock * kFoundPerBlock + kGroup);
   const Kernel kernel = make_kernel({});
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        scan_votes(kernel, votes.columns(), {0, 0, 0, 1, 0, 0, 0}, &range, 1, back.data()));
-  report(state, kItems, 44);
+  VotePoint queries[kGroup];
+  std::fill_n(queries, kGroup, VotePoint{0, 0, 0, 1, 0, 0, 0});
+  float nowhere[kGroup];
+  const Mutual mutual{nowhere, back.data()};
+  std::uint64_t sums[kGroup];
+  for (auto _ : state) {
+    scan_votes(kernel, votes.columns(), queries, kGroup, {&range, 1}, &mutual, found.data(), sums);
+    benchmark::DoNotOptimize(sums);
+  }
+  report(state, kGroup * kItems, 52);
 }
 
 void inner_scores(benchmark::State& state) {

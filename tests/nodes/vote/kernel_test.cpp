@@ -3,7 +3,9 @@
 #include "nodes/vote/kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <numbers>
 #include <random>
@@ -75,23 +77,79 @@ TEST_CASE("scanning equals the kernel bit for bit, on every instruction set", "[
   for (const auto* c :
        {&votes.tx, &votes.ty, &votes.tz, &votes.qw, &votes.qx, &votes.qy, &votes.qz})
     std::copy(c->begin(), c->end(), table[column++]);
+  const VoteColumns columns = table.columns();
   const auto at = [&](std::size_t v) { return vote_point(votes, v); };
+  std::vector<std::uint32_t> found(6000 / kBlock * kFoundPerBlock + kGroup);
   for (std::uint32_t i = 0; i < 300; ++i) {
-    const std::uint32_t begin = i * 7, end = i == 299 ? 6000 : begin + i % 70;
-    const std::uint32_t middle = std::min(end, begin + i % 5);
-    const IndexRange ranges[2] = {{begin, middle}, {middle, end}};
-    std::uint64_t expected = 0;
-    std::vector<std::uint32_t> back(6000 + kScanPadding, 0), expected_back = back;
-    for (std::uint32_t v = begin; v < end; ++v) {
-      expected_back[v] = kernel_units(kernel, at(i), at(v));
-      expected += expected_back[v];
+    const std::uint32_t begin = i, middle = std::min(375U, i + i % 5);
+    const std::uint32_t end = i == 7 ? 375 : std::min(375U, middle + i % 13);
+    const IndexRange ranges[2] = {{begin, middle}, {middle, end}};  // of blocks
+    const Blocks blocks{ranges, 2};
+    const std::size_t count = 1 + i % kGroup, first = (i * 61) % 5990;
+    VotePoint queries[kGroup];
+    for (std::size_t k = 0; k < count; ++k) queries[k] = at(first + k);
+    const auto weight = [&](std::size_t k, std::size_t v) {
+      return kernel_units(kernel, queries[k], at(v));
+    };
+    // Alone, and as votes that leave the table one by one.
+    std::uint64_t alone[kGroup], mutual[kGroup], expected[kGroup] = {},
+                                                 expected_mutual[kGroup] = {};
+    std::vector<std::uint32_t> back(6000, 0), expected_back = back;
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t v = begin * kBlock; v < end * kBlock; ++v) {
+        expected[k] += weight(k, v);
+        if (v >= first && v <= first + k) continue;
+        expected_mutual[k] += weight(k, v);
+        expected_back[v] += weight(k, v);
+      }
+    scan_votes(kernel, columns, queries, count, blocks, nullptr, found.data(), alone);
+    const Mutual leaving{table[0] + first, back.data()};
+    scan_votes(kernel, columns, queries, count, blocks, &leaving, found.data(), mutual);
+    for (std::size_t k = 0; k < count; ++k) {
+      REQUIRE(alone[k] == expected[k]);
+      REQUIRE(mutual[k] == expected_mutual[k]);
+      REQUIRE(std::isinf(table[0][first + k]));
+      table[0][first + k] = votes.tx[first + k];
     }
-    REQUIRE(scan_votes(kernel, table.columns(), at(i), ranges, 2, nullptr) == expected);
-    REQUIRE(scan_votes(kernel, table.columns(), at(i), ranges, 2, back.data()) == expected);
     REQUIRE(back == expected_back);
   }
-  const IndexRange all{0, 6000};
-  CHECK(scan_votes(kernel, table.columns(), vote({0, 0, 0}, {1, 0, 0, 0}), &all, 0, nullptr) == 0);
+  const VotePoint query = at(0);
+  std::uint64_t sum = 1;
+  scan_votes(kernel, columns, &query, 1, {nullptr, 0}, nullptr, found.data(), &sum);
+  CHECK(sum == 0);
+}
+
+TEST_CASE("votes that left a table, and those beyond its end, are nobody's neighbours", "[vote]") {
+  const Kernel kernel = make_kernel({});
+  VoteTable table;
+  table.resize(5);
+  for (std::size_t v = 0; v < kBlock; ++v)
+    for (std::size_t c = 0; c < kVoteColumns; ++c) table[c][v] = c == 3 ? 1 : 0;
+  table.remove(1);
+  table.close(5);
+  const VotePoint query{0, 0, 0, 1, 0, 0, 0};
+  const IndexRange block{0, 1};
+  std::uint32_t found[kFoundPerBlock + kGroup];
+  std::uint64_t sum = 0;
+  scan_votes(kernel, table.columns(), &query, 1, {&block, 1}, nullptr, found, &sum);
+  CHECK(sum == 4 * std::uint64_t{kWeightUnits});
+}
+
+TEST_CASE("a box holds its votes and touches some, on every instruction set", "[vote]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  std::mt19937 random(6);
+  const VoteSet votes = test::spread_votes(random, 300, 1);
+  const SortedVotes sorted = sort_votes(votes, {0.01F, 0.4F});
+  for (std::uint32_t begin = 0; begin < 20; ++begin)
+    for (std::uint32_t end = begin + 1; end < begin + 40; ++end) {
+      const VoteBox box = bounding_box(sorted.votes.columns(), {begin, end});
+      for (std::size_t a = 0; a < 3; ++a) {
+        const float* column = sorted.votes.columns()[a];
+        REQUIRE(box.low[a] == *std::min_element(column + begin, column + end));
+        REQUIRE(box.high[a] == *std::max_element(column + begin, column + end));
+      }
+    }
 }
 
 TEST_CASE("votes near a box are all copied, on every instruction set", "[vote]") {
@@ -129,27 +187,35 @@ TEST_CASE("votes near a box are all copied, on every instruction set", "[vote]")
   }
 }
 
-TEST_CASE("every rotation within reach lies in one of a vote's boxes, on every instruction set",
-          "[vote]") {
+TEST_CASE(
+    "every rotation within reach of a group lies in one of its boxes, on every instruction set",
+    "[vote]") {
   const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
   if (!there) return;
   std::mt19937 random(5);
   const float sigma_r = kDegree * GENERATE(1.0F, 22.5F, 60.0F, 90.0F);
-  const Bandwidth bandwidth{0.01F, sigma_r};
-  const RotationReach reach = make_rotation_reach(make_kernel(bandwidth), bandwidth);
+  const std::size_t group = GENERATE(1, 2, 4);
+  const float apart = GENERATE(0.1F, 1.0F, 3.14F);  // [rad], of a group
+  const Kernel kernel = make_kernel({0.01F, sigma_r});
   std::uniform_real_distribution<float> share(0, 0.9999F);
-  VoteSet near;
-  std::vector<VotePoint> centers;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const Eigen::Quaternionf q = test::random_rotation(random);
-    const Eigen::AngleAxisf turn(share(random) * sigma_r, test::random_direction(random));
-    centers.push_back(vote({0, 0, 0}, q));
-    test::add_vote(near, {0, 0, 0}, (turn * q).normalized());
-  }
-  const SortedVotes sorted = sort_votes(near, bandwidth);
-  for (std::size_t i = 0; i < centers.size(); ++i) {
-    const RotationBoxes boxes = rotation_boxes(centers[sorted.numbers[i]], reach);
-    const RotationCode code = sorted.codes[i];
+    std::vector<VotePoint> queries;
+    const auto turned = [&](const Eigen::Quaternionf& from, float most) {
+      const Eigen::AngleAxisf turn(share(random) * most, test::random_direction(random));
+      return (turn * from).normalized();
+    };
+    Eigen::Quaternionf last = q;
+    for (std::size_t k = 0; k < group; ++k) {
+      last = turned(q, apart);
+      queries.push_back(vote({0, 0, 0}, last));
+      if (random() % 2 == 0) queries.back() = negated(queries.back());
+    }
+    const Eigen::Vector4f near = turned(last, sigma_r).coeffs();  // x, y, z, w
+    RotationCode code = 0;
+    encode_rotations({&near[3], &near[0], &near[1], &near[2]}, 1, &code);
+    REQUIRE(rotation_order(code) < 2048);
+    const RotationBoxes boxes = rotation_boxes(reach_of(kernel, queries.data(), group));
     int holding = 0;
     for (std::size_t b = 0; b < boxes.count; ++b) {
       const RotationBox& box = boxes.items[b];
@@ -161,6 +227,24 @@ TEST_CASE("every rotation within reach lies in one of a vote's boxes, on every i
       holding += inside;
     }
     REQUIRE(holding == 1);
+  }
+}
+
+TEST_CASE("codes are the same wherever a rotation stands, on every instruction set", "[vote]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  std::mt19937 random(7);
+  const VoteSet votes = test::spread_votes(random, 67, 1);
+  std::vector<RotationCode> all(67);
+  const auto encode = [&](std::size_t first, std::size_t count, RotationCode* codes) {
+    encode_rotations({&votes.qw[first], &votes.qx[first], &votes.qy[first], &votes.qz[first]},
+                     count, codes);
+  };
+  encode(0, 67, all.data());
+  for (std::size_t i = 0; i < 67; ++i) {
+    RotationCode one = 0;
+    encode(i, 1, &one);
+    REQUIRE(one == all[i]);
   }
 }
 
