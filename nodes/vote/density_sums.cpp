@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For all queries of one translation cell together, the others that are near enough in translation
-// are collected once. Where they are few, queries look at all of them; where they are many, they
-// are sorted by rotation cell, and queries look at the rows of cells within their reach. They look
-// in groups, which are of like rotations because the votes of a cell are sorted by those.
+// For all queries of one translation cell together, or of a few sparse ones in a row, the others
+// that are near enough in translation are collected once. Where they are few, queries look at all
+// of them; where they are many, they are sorted by rotation cell, and queries look at the rows of
+// cells within their reach. They look in groups, which are of like rotations because the votes of a
+// cell are sorted by those.
 //
 // Of one set at its own votes, each pair is looked at once: a vote meets those behind it in its own
 // cell and those of the cells behind, and what it weighs there is added there as well.
@@ -21,16 +22,18 @@
 namespace posevote {
 namespace {
 
-/// Queries of one translation cell, at most kMaxQueries of them.
+/// Queries of one translation cell, at most kMaxQueries of them, or of cells in a row along z.
 struct Batch {
-  std::uint32_t cell;
+  CellRow cells;
   IndexRange queries;
 };
 
 constexpr std::uint32_t kMaxQueries = 4096;
+constexpr std::uint32_t kMostOfRow = 32;  // queries of a batch of several cells: flat from 8 to 64
 // Where sorting pays: measured on the votes of real scans, flat within half to twice.
 constexpr std::uint32_t kFewestQueries = 16, kFewestSorted = 3000;
 constexpr double kVotesPerCell = 16;
+constexpr double kMostReach = 1.8;  // of a group, x one's: flat from 1.4 to 2
 
 // Of batches, for the threads; what short ones add to is mostly others' sums.
 constexpr std::size_t kMostRanges = 256;
@@ -38,9 +41,16 @@ constexpr std::size_t kMostRanges = 256;
 std::vector<Batch> make_batches(const SortedVotes& queries) {
   std::vector<Batch> batches;
   for (std::uint32_t c = 0; c < queries.cells.size(); ++c) {
+    const TranslationCell& cell = queries.cells[c];
     const std::uint32_t end = queries.cell_begin[c + 1];
+    Batch* last = batches.empty() ? nullptr : &batches.back();
+    if (last != nullptr && last->cells.is_before(cell) && end - last->queries.begin <= kMostOfRow) {
+      ++last->cells.last_z;
+      last->queries.end = end;
+      continue;
+    }
     for (std::uint32_t i = queries.cell_begin[c]; i < end; i += kMaxQueries)
-      batches.push_back({c, {i, std::min(end, i + kMaxQueries)}});
+      batches.push_back({{cell, cell.z}, {i, std::min(end, i + kMaxQueries)}});
   }
   return batches;
 }
@@ -61,7 +71,8 @@ class BatchWorker {
         others_(others),
         result_{first, {}},
         search_(others),
-        kernel_(make_kernel(queries.bandwidth)) {}
+        kernel_(make_kernel(queries.bandwidth)),
+        loosest_(std::cos(kMostReach * std::acos(static_cast<double>(kernel_.min_cosine)))) {}
 
   void run(const Batch& batch);
 
@@ -74,14 +85,15 @@ class BatchWorker {
   void give_back();
   void collect(const Batch& batch);
   void sort_by_rotation(VoteSection& section, std::uint32_t query_count);
-  void run_group(IndexRange queries);
-  void find_blocks(const VotePoint* queries, std::size_t count, std::uint32_t from);
+  std::uint32_t run_group(IndexRange queries);
+  std::uint32_t find_blocks(const VotePoint* queries, std::uint32_t count, std::uint32_t from);
 
   const SortedVotes& queries_;
   const SortedVotes& others_;
   PartialSums result_;
   CellSearch search_;
   Kernel kernel_;
+  double loosest_;                      ///< cosine of a group's reach
   VoteTable near_;                      ///< the others that a batch meets
   std::vector<std::uint32_t> numbers_;  ///< of each
   std::vector<std::uint32_t> back_;     ///< what the queries weigh at each, not yet added
@@ -103,18 +115,19 @@ void BatchWorker::run(const Batch& batch) {
   // Of one set, the queries are the first votes of the table.
   const std::uint32_t first = one_set() ? 0 : batch.queries.begin;
   if (one_set()) back_.assign(own_.size() + ahead_.size() + kScanPadding, 0);
-  for (std::uint32_t i = 0; i < count; i += kGroup)
-    run_group({first + i, first + std::min(count, i + kGroup)});
+  for (std::uint32_t i = 0; i < count;)
+    i += run_group({first + i, first + std::min(count, i + kGroup)});
   if (one_set()) give_back();
 }
 
-void BatchWorker::run_group(IndexRange queries) {
-  const std::size_t count = queries.end - queries.begin;
+/// Returns how many it has run: one alone if they are too far apart.
+std::uint32_t BatchWorker::run_group(IndexRange queries) {
   const VoteTable& table = one_set() ? near_ : queries_.votes;
   VotePoint points[kGroup];
   std::uint64_t sums[kGroup];
-  for (std::uint32_t k = 0; k < count; ++k) points[k] = table.at(queries.begin + k);
-  find_blocks(points, count, one_set() ? queries.begin : 0);
+  const std::uint32_t most = queries.end - queries.begin;
+  for (std::uint32_t k = 0; k < most; ++k) points[k] = table.at(queries.begin + k);
+  const std::uint32_t count = find_blocks(points, most, one_set() ? queries.begin : 0);
   const auto scan = [&](const Mutual* mutual) {
     scan_votes(kernel_, near_.columns(), points, count, {blocks_.data(), blocks_.size()}, mutual,
                found_.data(), sums);
@@ -122,13 +135,14 @@ void BatchWorker::run_group(IndexRange queries) {
   if (!one_set()) {
     scan(nullptr);
     for (std::uint32_t k = 0; k < count; ++k) sum_of(queries.begin + k) = sums[k];
-    return;
+    return count;
   }
   const Mutual mutual{near_[0] + queries.begin, back_.data()};
   scan(&mutual);
   for (std::uint32_t k = 0; k < count; ++k)
     sum_of(numbers_[queries.begin + k]) += kWeightUnits + sums[k];  // 1 at itself
-  if ((back_count_ += kGroup) > kMostWeights - kGroup) give_back();
+  if ((back_count_ += count) > kMostWeights - kGroup) give_back();
+  return count;
 }
 
 /// Adds what the queries weigh at the others.
@@ -142,7 +156,7 @@ void BatchWorker::give_back() {
 void BatchWorker::collect(const Batch& batch) {
   // Of one set, what lies before has met these queries already.
   const std::uint32_t first = one_set() ? batch.queries.begin : 0;
-  const std::vector<IndexRange>& ranges = search_.around(queries_.cells[batch.cell], one_set());
+  const std::vector<IndexRange>& ranges = search_.around(batch.cells, one_set());
   std::size_t most = 0;
   for (const IndexRange& range : ranges) most += range.end - range.begin;
   near_.resize(most);
@@ -169,7 +183,8 @@ void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_cou
   if (query_count < kFewestQueries || count < kFewestSorted) return;
   const double cells = std::cbrt(count / kVotesPerCell);
   codes_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) codes_[i] = others_.codes[numbers_[first + i]];
+  encode_rotations({near_[3] + first, near_[4] + first, near_[5] + first, near_[6] + first}, count,
+                   codes_.data());
   section.sort(codes_,
                static_cast<std::uint32_t>(
                    std::clamp<double>(cells, 1, finest_rotation_cells(queries_.bandwidth))),
@@ -185,12 +200,17 @@ void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_cou
   for (std::size_t i = 0; i < count; ++i) numbers[places_[i] - first] = codes_[i];
 }
 
-/// All blocks with votes that the queries may meet, but for votes before `from`.
-void BatchWorker::find_blocks(const VotePoint* queries, std::size_t count, std::uint32_t from) {
+/// Finds all blocks with votes that the queries may meet, but for votes before `from`, and returns
+/// of how many queries: of the first alone if all together reach much farther.
+std::uint32_t BatchWorker::find_blocks(const VotePoint* queries, std::uint32_t count,
+                                       std::uint32_t from) {
   blocks_.clear();
   RotationBoxes boxes;
-  if (own_.is_sorted() || ahead_.is_sorted())
-    boxes = rotation_boxes(reach_of(kernel_, queries, count));
+  if (own_.is_sorted() || ahead_.is_sorted()) {
+    RotationBall ball = reach_of(kernel_, queries, count);
+    if (ball.cosine < loosest_) ball = reach_of(kernel_, queries, count = 1);
+    boxes = rotation_boxes(ball);
+  }
   for (const VoteSection* section : {&own_, &ahead_}) {
     if (section->is_sorted())
       for (std::size_t i = 0; i < boxes.count; ++i)
@@ -198,6 +218,7 @@ void BatchWorker::find_blocks(const VotePoint* queries, std::size_t count, std::
     else
       add_blocks({std::max(section->votes().begin, from), section->votes().end}, blocks_);
   }
+  return count;
 }
 
 std::vector<std::uint64_t> total_of(const std::vector<PartialSums>& parts, std::size_t count) {

@@ -81,7 +81,8 @@ std::vector<WeightedVote> PoseIndex::neighbours(const Eigen::Vector3f& center,
   if (!is_usable(pose, sorted.bandwidth)) return found;
   CellSearch search(sorted);
   std::vector<std::uint32_t> places, weights;
-  for (const IndexRange& range : search.around(translation_cell(pose, sorted.bandwidth))) {
+  const TranslationCell cell = translation_cell(pose, sorted.bandwidth);
+  for (const IndexRange& range : search.around({cell, cell.z})) {
     places.resize(std::max(places.size(), range.end - range.begin + kScanPadding));
     weights.resize(places.size());
     const std::size_t count = collect_near(data_->kernel, sorted.votes.columns(), pose, range,

@@ -100,8 +100,9 @@ struct Found {
   std::size_t count;
 };
 
-/// To look first and weigh then spares the processor branches that it cannot foresee; a group
-/// shares the loads.
+/// Of the first kQueries. To look first and weigh then spares the processor branches that it cannot
+/// foresee; a group shares the loads.
+template <std::size_t kQueries>
 HWY_INLINE void find(const Query (&queries)[kGroup], const VoteColumns& votes, const Blocks& blocks,
                      Found (&found)[kGroup]) {
   const Floats d;
@@ -111,9 +112,9 @@ HWY_INLINE void find(const Query (&queries)[kGroup], const VoteColumns& votes, c
          i += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
       const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
-      bool may_meet[kGroup];  // all before the first is written: that might be what is read
-      for (std::size_t k = 0; k < kGroup; ++k) may_meet[k] = queries[k].may_meet(w, x, y, z);
-      for (std::size_t k = 0; k < kGroup; ++k) {
+      bool may_meet[kQueries];  // all before the first is written: that might be what is read
+      for (std::size_t k = 0; k < kQueries; ++k) may_meet[k] = queries[k].may_meet(w, x, y, z);
+      for (std::size_t k = 0; k < kQueries; ++k) {
         found[k].first[found[k].count] = i;
         found[k].count += may_meet[k];
       }
@@ -163,7 +164,10 @@ void scan(const Kernel& kernel, const VoteColumns& votes, const VotePoint* queri
                          HWY_ATTR { return Query(constants, queries[std::min(k, count - 1)]); };
   const Query group[kGroup] = {query(0), query(1), query(2), query(3)};
   Found found[kGroup] = {{room, 0}, {room + each, 0}, {room + 2 * each, 0}, {room + 3 * each, 0}};
-  find(group, columns, blocks, found);
+  if (count == 1)
+    find<1>(group, columns, blocks, found);
+  else
+    find<kGroup>(group, columns, blocks, found);
   for (std::size_t k = 0; k < count; ++k) {
     if (mutual == nullptr) {
       sums[k] = weigh<false>(group[k], columns, found[k], nullptr);

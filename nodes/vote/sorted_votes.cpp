@@ -8,6 +8,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/prepare/radix_sort.hpp"
+#include "nodes/vote/rotation_cells.hpp"
 
 namespace posevote {
 namespace {
@@ -156,8 +157,6 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   take({votes.tx.data(), votes.ty.data(), votes.tz.data(), votes.qw.data(), votes.qx.data(),
         votes.qy.data(), votes.qz.data()},
        sorted.numbers, sorted.votes);
-  sorted.codes.reserve(sorted.size());
-  for (const std::uint32_t v : sorted.numbers) sorted.codes.push_back(codes[v]);
   return sorted;
 }
 
@@ -173,23 +172,20 @@ SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep) 
   }
   selected.cell_begin.push_back(static_cast<std::uint32_t>(kept.size()));
   take(columns_of(all.votes.columns()), kept, selected.votes);
-  selected.codes.reserve(kept.size());
   selected.numbers.reserve(kept.size());
-  for (const std::uint32_t i : kept) {
-    selected.codes.push_back(all.codes[i]);
-    selected.numbers.push_back(all.numbers[i]);
-  }
+  for (const std::uint32_t i : kept) selected.numbers.push_back(all.numbers[i]);
   return selected;
 }
 
-const std::vector<IndexRange>& CellSearch::around(const TranslationCell& cell, bool not_lower) & {
+const std::vector<IndexRange>& CellSearch::around(const CellRow& cells, bool not_lower) & {
+  const TranslationCell& cell = cells.first;
   ranges_.clear();
   for (std::int32_t row = not_lower ? 4 : 0; row < 9; ++row) {
     TranslationCell wanted{cell.x + row / 3 - 1, cell.y + row % 3 - 1, cell.z - 1};
     if (not_lower && row == 4) wanted.z = cell.z;
     std::size_t& cursor = cursor_[row];
     cursor = lower_bound_near(votes_->cells, wanted, cursor);
-    wanted.z = cell.z + 1;
+    wanted.z = cells.last_z + 1;
     std::size_t last = cursor;
     while (last < votes_->cells.size() && votes_->cells[last] <= wanted) ++last;
     if (last > cursor) ranges_.push_back({votes_->cell_begin[cursor], votes_->cell_begin[last]});

@@ -10,7 +10,6 @@
 
 #include "nodes/data/votes.hpp"
 #include "nodes/vote/kernel.hpp"
-#include "nodes/vote/rotation_cells.hpp"
 #include "nodes/vote/vote_table.hpp"
 
 namespace posevote {
@@ -21,11 +20,20 @@ struct TranslationCell {
   auto operator<=>(const TranslationCell&) const = default;
 };
 
+/// Cells that lie side by side along z.
+struct CellRow {
+  TranslationCell first;
+  std::int32_t last_z = 0;
+
+  bool is_before(const TranslationCell& cell) const {
+    return cell.x == first.x && cell.y == first.y && cell.z - 1 == last_z;
+  }
+};
+
 /// Translations that are neighbours lie in cells that differ by at most 1 along each axis.
 struct SortedVotes {
   Bandwidth bandwidth;
   VoteTable votes;                        ///< by cell, then roughly by rotation
-  std::vector<RotationCode> codes;        ///< of each
   std::vector<std::uint32_t> numbers;     ///< of each in the VoteSet
   std::vector<TranslationCell> cells;     ///< occupied ones, ascending
   std::vector<std::uint32_t> cell_begin;  ///< per cell and one more: its first vote
@@ -45,18 +53,18 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth);
 /// The votes whose number n has keep[n] != 0, in the same order.
 SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep);
 
-/// Finds the votes in the 3 x 3 x 3 cells around a cell. Fast when asked for cells in ascending
-/// order, for then each row of cells is found beside its predecessor.
+/// Finds the votes of a row of cells and of the cells around it. Fast when asked for rows in
+/// ascending order, for then each row around is found beside its predecessor.
 class CellSearch {
  public:
   explicit CellSearch(const SortedVotes& votes) : votes_(&votes) {}
 
-  /// The votes around a cell, ascending; without those of lower cells if `not_lower`.
-  const std::vector<IndexRange>& around(const TranslationCell& cell, bool not_lower = false) &;
+  /// The votes there, ascending; without those of lower cells if `not_lower`.
+  const std::vector<IndexRange>& around(const CellRow& cells, bool not_lower = false) &;
 
  private:
   const SortedVotes* votes_;
-  std::size_t cursor_[9] = {};  ///< per row of cells: where the last search ended
+  std::size_t cursor_[9] = {};  ///< per row around: where the last search ended
   std::vector<IndexRange> ranges_;
 };
 
