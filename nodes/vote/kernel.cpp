@@ -43,6 +43,7 @@ Kernel make_kernel(Bandwidth bandwidth) {
   kernel.max_e2 = static_cast<float>(chord * chord);
   // e2 = |q|^2 + |q'|^2 - 2 <q, q'>, and the norms are 1 up to 1e-5 (is_usable).
   kernel.min_cosine = static_cast<float>(1 - chord * chord / 2 - 5e-5);
+  kernel.per_dt2 = static_cast<float>(1 / (sigma_t * sigma_t));
   const auto translation = interpolate<5>([](double share) { return std::exp(-share / 2); }, 1);
   const auto rotation = interpolate<5>(
       [sigma_r](double e2) {
@@ -50,9 +51,8 @@ Kernel make_kernel(Bandwidth bandwidth) {
         return std::exp(-share * share / 2);
       },
       chord * chord);
-  for (int i = 0; i < 5; ++i) {
-    const double scale = kWeightUnits / std::pow(sigma_t, 2 * i);
-    kernel.translation[i] = static_cast<float>(translation[i] * scale);
+  for (std::size_t i = 0; i < 5; ++i) {
+    kernel.translation[i] = static_cast<float>(translation[i] * kWeightUnits);
     kernel.rotation[i] = static_cast<float>(rotation[i]);
   }
   return kernel;

@@ -48,7 +48,8 @@ struct Kernel {
   float max_dt2;         ///< sigma_t^2
   float max_e2;          ///< squared chord of an angle of sigma_R
   float min_cosine;      ///< between quaternions that may be that near; a trifle less
-  float translation[5];  ///< 2^22 exp(-d_t^2 / 2 sigma_t^2) as a polynomial in d_t^2
+  float per_dt2;         ///< 1 / sigma_t^2
+  float translation[5];  ///< 2^22 exp(-d_t^2 / 2 sigma_t^2) as a polynomial in (d_t / sigma_t)^2
   float rotation[5];     ///< exp(-d_R^2 / 2 sigma_R^2) as one in the squared chord
 };
 
@@ -81,7 +82,7 @@ constexpr float kWholeNumbers = 1U << 23U;  // from here to twice that, floats a
 
 /// The weight of a neighbour, in units: the mantissa of a float that is a whole number.
 inline std::uint32_t weight_units(const Kernel& k, float dt2, float e2) {
-  const float units = polynomial(k.translation, dt2) * polynomial(k.rotation, e2);
+  const float units = polynomial(k.translation, dt2 * k.per_dt2) * polynomial(k.rotation, e2);
   return std::bit_cast<std::uint32_t>(units + kWholeNumbers) & kMantissa;
 }
 

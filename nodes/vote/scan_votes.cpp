@@ -35,7 +35,8 @@ HWY_INLINE F polynomial(const float (&a)[5], F x) {
 
 /// weight_units of kernel.hpp where `near`, else 0.
 HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2, hn::Mask<Floats> near) {
-  const F units = hn::Mul(polynomial(k.translation, dt2), polynomial(k.rotation, e2));
+  const F share = hn::Mul(dt2, hn::Set(Floats(), k.per_dt2));
+  const F units = hn::Mul(polynomial(k.translation, share), polynomial(k.rotation, e2));
   const F whole = hn::Add(hn::IfThenElseZero(near, units), hn::Set(Floats(), kWholeNumbers));
   return hn::And(hn::BitCast(Units(), whole), hn::Set(Units(), kMantissa));
 }

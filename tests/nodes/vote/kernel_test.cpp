@@ -43,7 +43,8 @@ TEST_CASE("the kernel follows the paper, is cut at both bandwidths, and is symme
   std::mt19937 random(2);
   std::uniform_real_distribution<float> share(0, 1.2F);
   const float sigma_r = kDegree * GENERATE(1.0F, 22.5F, 60.0F, 90.0F);
-  const Bandwidth bandwidth{0.01F, sigma_r};
+  const float sigma_t = GENERATE(1e-9F, 1e-5F, 0.01F, 1e9F);
+  const Bandwidth bandwidth{sigma_t, sigma_r};
   const Kernel kernel = make_kernel(bandwidth);
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Quaternionf q = test::random_rotation(random);
@@ -51,7 +52,7 @@ TEST_CASE("the kernel follows the paper, is cut at both bandwidths, and is symme
     const Eigen::AngleAxisf turn(r_share * sigma_r, test::random_direction(random));
     const VotePoint a = vote(Eigen::Vector3f::Zero(), q);
     const VotePoint b =
-        vote(0.01F * t_share * test::random_direction(random), (turn * q).normalized());
+        vote(sigma_t * t_share * test::random_direction(random), (turn * q).normalized());
     const std::uint32_t units = kernel_units(kernel, a, b);
     REQUIRE(units == kernel_units(kernel, b, a));
     REQUIRE(units == kernel_units(kernel, negated(a), b));

@@ -29,7 +29,13 @@ VotePoint point(const VoteSet& s, std::size_t v) {
   return {s.tx[v], s.ty[v], s.tz[v], s.qw[v], s.qx[v], s.qy[v], s.qz[v]};
 }
 
-/// Eq. 10 in doubles, with exp and acos. Only membership comes from the project's own predicate.
+/// The project's own predicate, whatever its weights are.
+bool is_neighbour(const Kernel& kernel, const VotePoint& a, const VotePoint& b) {
+  const float e2 = std::min(squared_chord(a, b, 1), squared_chord(a, b, -1));
+  return squared_distance(a, b) <= kernel.max_dt2 && e2 <= kernel.max_e2;
+}
+
+/// Eq. 10 in doubles, with exp and acos. Only membership is the project's.
 double naive_density(const VoteSet& votes, std::size_t v, Bandwidth bandwidth) {
   const Kernel kernel = make_kernel(bandwidth);
   const VotePoint a = point(votes, v);
@@ -38,7 +44,7 @@ double naive_density(const VoteSet& votes, std::size_t v, Bandwidth bandwidth) {
   double sum = 0;
   for (std::size_t i = 0; i < votes.tx.size(); ++i) {
     const VotePoint b = point(votes, i);
-    if (kernel_units(kernel, a, b) == 0) continue;
+    if (!is_neighbour(kernel, a, b)) continue;
     const Eigen::Vector3d t = Eigen::Vector3f(a.tx - b.tx, a.ty - b.ty, a.tz - b.tz).cast<double>();
     const Eigen::Vector4d qa = Eigen::Vector4f(a.qw, a.qx, a.qy, a.qz).cast<double>().normalized();
     const Eigen::Vector4d qb = Eigen::Vector4f(b.qw, b.qx, b.qy, b.qz).cast<double>().normalized();
