@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <utility>
 
 #include "graph/parallel.hpp"
 #include "nodes/vote/scan_votes.hpp"
@@ -55,12 +54,6 @@ std::vector<Batch> make_batches(const SortedVotes& queries) {
   return batches;
 }
 
-/// Sums of some votes: of `first` and those behind it.
-struct PartialSums {
-  std::uint32_t first;
-  std::vector<std::uint64_t> sums;
-};
-
 /// The work of one thread on batches that follow each other.
 class BatchWorker {
  public:
@@ -69,19 +62,21 @@ class BatchWorker {
   BatchWorker(const SortedVotes& queries, const SortedVotes& others, std::uint32_t first)
       : queries_(queries),
         others_(others),
-        result_{first, {}},
+        first_(first),
         search_(others),
         kernel_(make_kernel(queries.bandwidth)),
         loosest_(std::cos(kMostReach * std::acos(static_cast<double>(kernel_.min_cosine)))) {}
 
   void run(const Batch& batch);
 
-  /// Of the batches that were run: all that their queries weigh, and what they weigh elsewhere.
-  PartialSums& result() { return result_; }
+  /// To be called at the end: what the queries weigh, and of one set what is weighed at them.
+  void add_to(std::vector<std::uint64_t>& sums) const {
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums[first_ + i] += sums_[i];
+  }
 
  private:
   bool one_set() const { return &queries_ == &others_; }
-  std::uint64_t& sum_of(std::uint32_t vote) { return result_.sums[vote - result_.first]; }
+  std::uint64_t& sum_of(std::uint32_t vote) { return sums_[vote - first_]; }
   void give_back();
   void collect(const Batch& batch);
   void sort_by_rotation(VoteSection& section, std::uint32_t query_count);
@@ -90,7 +85,8 @@ class BatchWorker {
 
   const SortedVotes& queries_;
   const SortedVotes& others_;
-  PartialSums result_;
+  std::uint32_t first_;              ///< query
+  std::vector<std::uint64_t> sums_;  ///< of it and those behind it
   CellSearch search_;
   Kernel kernel_;
   double loosest_;                      ///< cosine of a group's reach
@@ -175,7 +171,7 @@ void BatchWorker::collect(const Batch& batch) {
   own_ = VoteSection({0, own});
   ahead_ = VoteSection({own, count});
   const std::uint32_t end = one_set() ? ranges.back().end : batch.queries.end;
-  result_.sums.resize(std::max<std::size_t>(result_.sums.size(), end - result_.first), 0);
+  sums_.resize(std::max<std::size_t>(sums_.size(), end - first_), 0);
 }
 
 void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_count) {
@@ -221,27 +217,20 @@ std::uint32_t BatchWorker::find_blocks(const VotePoint* queries, std::uint32_t c
   return count;
 }
 
-std::vector<std::uint64_t> total_of(const std::vector<PartialSums>& parts, std::size_t count) {
-  std::vector<std::uint64_t> total(count, 0);
-  for (const PartialSums& part : parts)
-    for (std::size_t i = 0; i < part.sums.size(); ++i) total[part.first + i] += part.sums[i];
-  return total;
-}
-
 }  // namespace
 
 std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const SortedVotes& others) {
+  std::vector<std::uint64_t> sums(queries.size(), 0);
+  std::mutex adding;  // once a range; the order of integers does not matter
   const std::vector<Batch> batches = make_batches(queries);
   const std::size_t grain = batches.size() / kMostRanges;
-  std::vector<PartialSums> parts;  // in no order: sums of integers are the same in any
-  std::mutex adding;
   graph::parallel_ranges(batches.size(), grain, [&](std::size_t begin, std::size_t end) {
     BatchWorker worker(queries, others, batches[begin].queries.begin);
     for (std::size_t b = begin; b < end; ++b) worker.run(batches[b]);
     const std::scoped_lock lock(adding);
-    parts.push_back(std::move(worker.result()));
+    worker.add_to(sums);
   });
-  return total_of(parts, queries.size());
+  return sums;
 }
 
 std::vector<std::uint64_t> density_sums(const SortedVotes& votes) {
