@@ -69,7 +69,7 @@ class BatchWorker {
 
   void run(const Batch& batch);
 
-  /// To be called at the end: what the queries weigh, and of one set what is weighed at them.
+  /// To be called at the end: the sums at the queries, and of one set what these weigh elsewhere.
   void add_to(std::vector<std::uint64_t>& sums) const {
     for (std::size_t i = 0; i < sums_.size(); ++i) sums[first_ + i] += sums_[i];
   }
@@ -99,12 +99,16 @@ class BatchWorker {
   std::vector<std::uint32_t> found_;    ///< for scan_votes
   // of sort_by_rotation
   std::vector<RotationCode> codes_;
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> places_, moved_numbers_;
   std::vector<float> moved_;
 };
 
 void BatchWorker::run(const Batch& batch) {
   collect(batch);
+  if (one_set() && own_.size() + ahead_.size() == 1) {  // it meets itself alone
+    sum_of(batch.queries.begin) += kWeightUnits;
+    return;
+  }
   const std::uint32_t count = batch.queries.end - batch.queries.begin;
   sort_by_rotation(own_, count);
   sort_by_rotation(ahead_, count);
@@ -192,8 +196,9 @@ void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_cou
     std::copy(moved_.begin(), moved_.end(), column);
   }
   std::uint32_t* numbers = &numbers_[first];
-  std::copy_n(numbers, count, codes_.begin());
-  for (std::size_t i = 0; i < count; ++i) numbers[places_[i] - first] = codes_[i];
+  moved_numbers_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) moved_numbers_[places_[i] - first] = numbers[i];
+  std::copy(moved_numbers_.begin(), moved_numbers_.end(), numbers);
 }
 
 /// Finds all blocks with votes that the queries may meet, but for votes before `from`, and returns
@@ -204,7 +209,10 @@ std::uint32_t BatchWorker::find_blocks(const VotePoint* queries, std::uint32_t c
   RotationBoxes boxes;
   if (own_.is_sorted() || ahead_.is_sorted()) {
     RotationBall ball = reach_of(kernel_, queries, count);
-    if (ball.cosine < loosest_) ball = reach_of(kernel_, queries, count = 1);
+    if (ball.cosine < loosest_) {
+      count = 1;
+      ball = reach_of(kernel_, queries, count);
+    }
     boxes = rotation_boxes(ball);
   }
   for (const VoteSection* section : {&own_, &ahead_}) {

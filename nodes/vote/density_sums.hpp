@@ -9,11 +9,11 @@
 
 namespace posevote {
 
-/// At every query the sum of the weights of its neighbours among `others`, in units of 2^-25 and in
-/// the order of `queries`. Both sets have the same bandwidth. Parallel over the queries.
+/// At every query the sum of the weights of its neighbours among `others`, in units (kWeightUnits)
+/// and in the order of `queries`. Both sets have the same bandwidth. Parallel over the queries.
 std::vector<std::uint64_t> density_sums(const SortedVotes& queries, const SortedVotes& others);
 
-/// The same of one set at its own votes. Votes of different cells are looked at once a pair.
+/// The same of one set at its own votes. Each pair of votes is looked at once.
 std::vector<std::uint64_t> density_sums(const SortedVotes& votes);
 
 }  // namespace posevote

@@ -9,7 +9,7 @@ namespace posevote {
 namespace {
 
 /// Coefficients of the polynomial that equals f at 0 and at the rest of Chebyshev's nodes of an
-/// interval of which 0 is the first node, where it is close to the best that is exact at 0.
+/// interval of which 0 is the last node, where it is close to the best that is exact at 0.
 template <std::size_t kCount, class F>
 std::array<double, kCount> interpolate(const F& f, double end) {
   std::array<double, kCount> nodes{}, newton{}, result{};

@@ -37,7 +37,7 @@ inline std::uint32_t rotation_order(RotationCode code) {
     constexpr std::array<std::uint32_t, 8> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
     return kSpread[(code >> shift) & 7U];
   };
-  return (chart_of(code) & 3U) << 9U | spread(21) << 2U | spread(13) << 1U | spread(5);
+  return chart_of(code) << 9U | spread(21) << 2U | spread(13) << 1U | spread(5);
 }
 
 /// All rotations within an angle of a quaternion.

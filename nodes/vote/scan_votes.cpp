@@ -131,7 +131,7 @@ HWY_INLINE std::uint64_t sum_of_lanes(U total) {
   return sum;
 }
 
-/// Adds what each vote weighs to `back`, unless that is null.
+/// If kMutual, adds what each vote weighs to `back`.
 template <bool kMutual>
 HWY_INLINE std::uint64_t weigh(const Query& query, const VoteColumns& votes, const Found& found,
                                std::uint32_t* back) {

@@ -11,7 +11,7 @@
 namespace posevote {
 
 /// Votes as seven arrays one behind the other, in the order of VotePoint. Up to kScanPadding floats
-/// behind the last of each are read, not used.
+/// behind the last of each are read.
 struct VoteColumns {
   const float* first;
   std::size_t stride;  ///< from one array to the next
@@ -27,7 +27,8 @@ struct IndexRange {
   std::uint32_t begin = 0, end = 0;
 };
 
-/// Votes are looked at in blocks: vote i lies in block i / kBlock. All of a block are read.
+/// Votes are looked at in blocks: vote i lies in block i / kBlock. All of a block count, so
+/// that what is behind the last vote must be far away (VoteTable::close).
 constexpr std::uint32_t kBlock = 16;
 
 /// Queries that look at votes together.

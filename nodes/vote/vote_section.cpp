@@ -6,6 +6,7 @@
 namespace posevote {
 
 void add_blocks(IndexRange votes, std::vector<IndexRange>& blocks) {
+  if (votes.begin >= votes.end) return;
   IndexRange added{votes.begin / kBlock, (votes.end + kBlock - 1) / kBlock};
   if (!blocks.empty()) added.begin = std::max(added.begin, blocks.back().end);
   if (added.begin >= added.end) return;

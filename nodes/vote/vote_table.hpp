@@ -31,7 +31,9 @@ class VoteTable {
 
   /// Of a table of `count` votes: what the last block holds beyond them is nobody's neighbour.
   void close(std::size_t count) {
-    for (; count % kBlock != 0; ++count) remove(count);
+    for (; count % kBlock != 0; ++count)
+      for (std::size_t c = 0; c < kVoteColumns; ++c)
+        (*this)[c][count] = c < 3 ? std::numeric_limits<float>::infinity() : 0;
   }
 
   VotePoint at(std::size_t i) const {

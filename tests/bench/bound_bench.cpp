@@ -116,7 +116,7 @@ void inner_votes(benchmark::State& state) {
     scan_votes(kernel, votes.columns(), queries, kGroup, {&range, 1}, &mutual, found.data(), sums);
     benchmark::DoNotOptimize(sums);
   }
-  report(state, kGroup * kItems, 52);
+  report(state, kGroup * kItems, 53);
 }
 
 void inner_scores(benchmark::State& state) {

@@ -70,7 +70,7 @@ TEST_CASE("what is explained step by step leaves the densities of voting anew", 
         dead += std::abs(object.density[v]);
     }
     CHECK(dead == 0);
-    CHECK(left == expected);  // to the last bit: weights are multiples of 2^-25
+    CHECK(left == expected);  // to the last bit: weights are multiples of 2^-22
   }
 }
 

@@ -13,6 +13,7 @@
 #include <random>
 #include <set>
 
+#include "tests/support/instruction_set.hpp"
 #include "tests/support/votes.hpp"
 
 namespace posevote {
@@ -145,6 +146,27 @@ TEST_CASE("a vote alone has density 1, equal votes their number", "[vote]") {
   for (int i = 1; i < 5000; ++i)
     add_vote(votes, {1, 2, 3}, i % 2 ? q : Eigen::Quaternionf(-q.w(), -q.x(), -q.y(), -q.z()));
   CHECK((PoseIndex(votes, {}).densities() == std::vector<double>(5000, 5000)));
+}
+
+TEST_CASE("a crowded cell and small ones behind it", "[vote]") {
+  // More than are looked at at once, then a cell that makes one batch with the last of them.
+  VoteSet votes;
+  const Eigen::Quaternionf q = Eigen::Quaternionf::Identity();
+  for (int i = 0; i < 4100; ++i) add_vote(votes, {0.005F, 0.005F, 0.005F}, q);
+  for (int i = 0; i < 10; ++i) add_vote(votes, {0.005F, 0.005F, 0.0125F}, q);
+  const double weight =
+      density_of(kernel_units(make_kernel({}), point(votes, 0), point(votes, 4100)));
+  std::vector<double> expected(4100, 4100 + 10 * weight);
+  expected.resize(4110, 10 + 4100 * weight);
+  CHECK((PoseIndex(votes, {}).densities() == expected));
+}
+
+TEST_CASE("more equal votes than 32 bits hold weights of, on every instruction set", "[vote]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  VoteSet votes;
+  for (int i = 0; i < 17000; ++i) add_vote(votes, {0, 0, 0}, Eigen::Quaternionf::Identity());
+  CHECK((PoseIndex(votes, {}).densities() == std::vector<double>(17000, 17000)));
 }
 
 TEST_CASE("no votes, no densities", "[vote]") {
