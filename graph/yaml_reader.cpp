@@ -209,6 +209,7 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
 
 bool is_pipeline(const std::string& file) {
   try {
+    if (std::filesystem::is_directory(file)) return false;  // yaml-cpp leaks what it began to read
     const YAML::Node root = YAML::LoadFile(file);
     return root.IsMap() && root["nodes"].IsDefined();
   } catch (const std::exception&) {
