@@ -41,7 +41,7 @@ struct Blocks {
 };
 
 /// Numbers that `found` of scan_votes holds for each block: where vectors have one lane, all votes.
-constexpr std::size_t kFoundPerBlock = kGroup * kBlock;
+constexpr std::size_t kFoundPerBlock = std::size_t{kGroup} * kBlock;
 
 /// Whose sum 32 bits hold: so many queries may add to `back` before it is emptied.
 constexpr std::uint32_t kMostWeights = 1023;
