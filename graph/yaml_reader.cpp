@@ -31,7 +31,7 @@ struct Reader {
 
   YAML::Node load() const {
     try {
-      if (std::filesystem::is_directory(file)) {
+      if (std::filesystem::is_directory(file)) {  // yaml-cpp would leak what it began to read
         report({file, 0, 0}, "", "is a folder, expected a YAML file");
         return YAML::Node(YAML::NodeType::Undefined);
       }
@@ -209,9 +209,9 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
 
 bool is_pipeline(const std::string& file) {
   try {
-    if (std::filesystem::is_directory(file)) return false;  // yaml-cpp leaks what it began to read
-    const YAML::Node root = YAML::LoadFile(file);
-    return root.IsMap() && root["nodes"].IsDefined();
+    std::vector<Problem> ignored;
+    const YAML::Node root = Reader{file, &ignored}.load();
+    return root.IsDefined() && root["nodes"].IsDefined();
   } catch (const std::exception&) {
     return false;  // read_config reports it, with the place
   }

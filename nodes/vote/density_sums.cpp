@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "graph/parallel.hpp"
 #include "nodes/vote/scan_votes.hpp"
@@ -92,7 +93,7 @@ class BatchWorker {
   double loosest_;                      ///< cosine of a group's reach
   VoteTable near_;                      ///< the others that a batch meets
   std::vector<std::uint32_t> numbers_;  ///< of each
-  std::vector<std::uint32_t> back_;     ///< what the queries weigh at each, not yet added
+  std::vector<std::uint32_t> back_;     ///< what queries weigh at each, not yet added; else 0
   std::uint32_t back_count_ = 0;        ///< queries that have added to it
   VoteSection own_, ahead_;             ///< the batch's own votes, first; all others
   std::vector<IndexRange> blocks_;      ///< that a group looks at
@@ -114,7 +115,8 @@ void BatchWorker::run(const Batch& batch) {
   sort_by_rotation(ahead_, count);
   // Of one set, the queries are the first votes of the table.
   const std::uint32_t first = one_set() ? 0 : batch.queries.begin;
-  if (one_set()) back_.assign(own_.size() + ahead_.size() + kScanPadding, 0);
+  if (one_set())
+    back_.resize(std::max(back_.size(), own_.size() + ahead_.size() + kScanPadding), 0);
   for (std::uint32_t i = 0; i < count;)
     i += run_group({first + i, first + std::min(count, i + kGroup)});
   if (one_set()) give_back();
@@ -148,8 +150,7 @@ std::uint32_t BatchWorker::run_group(IndexRange queries) {
 /// Adds what the queries weigh at the others.
 void BatchWorker::give_back() {
   const std::size_t count = own_.size() + ahead_.size();
-  for (std::size_t i = 0; i < count; ++i) sum_of(numbers_[i]) += back_[i];
-  std::fill(back_.begin(), back_.end(), 0);
+  for (std::size_t i = 0; i < count; ++i) sum_of(numbers_[i]) += std::exchange(back_[i], 0);
   back_count_ = 0;
 }
 
@@ -189,16 +190,13 @@ void BatchWorker::sort_by_rotation(VoteSection& section, std::uint32_t query_cou
                static_cast<std::uint32_t>(
                    std::clamp<double>(cells, 1, finest_rotation_cells(queries_.bandwidth))),
                places_);
-  moved_.resize(count);
-  for (std::size_t c = 0; c < kVoteColumns; ++c) {
-    float* column = near_[c] + first;
-    for (std::size_t i = 0; i < count; ++i) moved_[places_[i] - first] = column[i];
-    std::copy(moved_.begin(), moved_.end(), column);
-  }
-  std::uint32_t* numbers = &numbers_[first];
-  moved_numbers_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) moved_numbers_[places_[i] - first] = numbers[i];
-  std::copy(moved_numbers_.begin(), moved_numbers_.end(), numbers);
+  const auto move = [&](auto* items, auto& moved) {
+    moved.resize(count);
+    for (std::size_t i = 0; i < count; ++i) moved[places_[i] - first] = items[i];
+    std::copy(moved.begin(), moved.end(), items);
+  };
+  for (std::size_t c = 0; c < kVoteColumns; ++c) move(near_[c] + first, moved_);
+  move(&numbers_[first], moved_numbers_);
 }
 
 /// Finds all blocks with votes that the queries may meet, but for votes before `from`, and returns

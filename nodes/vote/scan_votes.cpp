@@ -43,6 +43,17 @@ HWY_INLINE U weight_units(const Kernel& k, F dt2, F e2, hn::Mask<Floats> near) {
 
 HWY_INLINE F squared(F a) { return hn::Mul(a, a); }
 
+/// As many quaternions as a vector has lanes.
+struct Rotations {
+  F w, x, y, z;
+};
+
+HWY_INLINE Rotations rotations_from(const VoteColumns& votes, std::size_t i) {
+  const Floats d;
+  return {hn::LoadU(d, votes[3] + i), hn::LoadU(d, votes[4] + i), hn::LoadU(d, votes[5] + i),
+          hn::LoadU(d, votes[6] + i)};
+}
+
 /// A query, each number in every lane.
 class Query {
  public:
@@ -61,8 +72,8 @@ class Query {
   }
 
   /// Whether any of these rotations may be near.
-  HWY_INLINE bool may_meet(F w, F x, F y, F z) const {
-    return !hn::AllFalse(Floats(), hn::Ge(hn::Abs(cosine(w, x, y, z)), min_cosine_));
+  HWY_INLINE bool may_meet(const Rotations& others) const {
+    return !hn::AllFalse(Floats(), hn::Ge(hn::Abs(cosine(others)), min_cosine_));
   }
 
   /// The weights of the votes from i on, as many as a vector has lanes; 0 where they are not near.
@@ -72,23 +83,22 @@ class Query {
     const F dy = hn::Sub(ty_, hn::LoadU(d, votes[1] + i));
     const F dz = hn::Sub(tz_, hn::LoadU(d, votes[2] + i));
     const F dt2 = hn::Add(hn::Add(squared(dx), squared(dy)), squared(dz));
-    const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
-    const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
+    const Rotations q = rotations_from(votes, i);
     // Of q and -q the nearer; a product with 1 or -1 is exact, fused or not.
-    const F sign = hn::CopySignToAbs(hn::Set(d, 1), cosine(w, x, y, z));
+    const F sign = hn::CopySignToAbs(hn::Set(d, 1), cosine(q));
     const F wx =
-        hn::Add(squared(hn::NegMulAdd(sign, w, qw_)), squared(hn::NegMulAdd(sign, x, qx_)));
+        hn::Add(squared(hn::NegMulAdd(sign, q.w, qw_)), squared(hn::NegMulAdd(sign, q.x, qx_)));
     const F yz =
-        hn::Add(squared(hn::NegMulAdd(sign, y, qy_)), squared(hn::NegMulAdd(sign, z, qz_)));
+        hn::Add(squared(hn::NegMulAdd(sign, q.y, qy_)), squared(hn::NegMulAdd(sign, q.z, qz_)));
     const F e2 = hn::Add(wx, yz);
     return weight_units(kernel_, dt2, e2, hn::And(hn::Le(dt2, max_dt2_), hn::Le(e2, max_e2_)));
   }
 
  private:
   /// Of the angle between the quaternions. Fused: it only says where to look and which sign.
-  HWY_INLINE F cosine(F w, F x, F y, F z) const {
-    const F sum = hn::MulAdd(qx_, x, hn::Mul(qw_, w));
-    return hn::MulAdd(qz_, z, hn::MulAdd(qy_, y, sum));
+  HWY_INLINE F cosine(const Rotations& q) const {
+    const F sum = hn::MulAdd(qx_, q.x, hn::Mul(qw_, q.w));
+    return hn::MulAdd(qz_, q.z, hn::MulAdd(qy_, q.y, sum));
   }
 
   const Kernel& kernel_;
@@ -106,15 +116,13 @@ struct Found {
 template <std::size_t kQueries>
 HWY_INLINE void find(const Query (&queries)[kGroup], const VoteColumns& votes, const Blocks& blocks,
                      Found (&found)[kGroup]) {
-  const Floats d;
   for (std::size_t r = 0; r < blocks.count; ++r) {
     const std::uint32_t end = blocks.ranges[r].end * kBlock;
     for (std::uint32_t i = blocks.ranges[r].begin * kBlock; i < end;
-         i += static_cast<std::uint32_t>(hn::Lanes(d))) {
-      const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
-      const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
+         i += static_cast<std::uint32_t>(hn::Lanes(Floats()))) {
+      const Rotations others = rotations_from(votes, i);
       bool may_meet[kQueries];  // all before the first is written: that might be what is read
-      for (std::size_t k = 0; k < kQueries; ++k) may_meet[k] = queries[k].may_meet(w, x, y, z);
+      for (std::size_t k = 0; k < kQueries; ++k) may_meet[k] = queries[k].may_meet(others);
       for (std::size_t k = 0; k < kQueries; ++k) {
         found[k].first[found[k].count] = i;
         found[k].count += may_meet[k];
@@ -181,16 +189,13 @@ void scan(const Kernel& kernel, const VoteColumns& votes, const VotePoint* queri
 
 std::size_t collect(const Kernel& kernel, const VoteColumns& votes, const VotePoint& point,
                     IndexRange range, std::uint32_t* places, std::uint32_t* weights) {
-  const Floats d;
   const Units units;
   const std::size_t lanes = hn::Lanes(units);
   const Query query(kernel, point);
   const U lane = hn::Iota(units, 0);
   std::size_t count = 0;
   for (std::size_t i = range.begin; i < range.end; i += lanes) {
-    const F w = hn::LoadU(d, votes[3] + i), x = hn::LoadU(d, votes[4] + i);
-    const F y = hn::LoadU(d, votes[5] + i), z = hn::LoadU(d, votes[6] + i);
-    if (!query.may_meet(w, x, y, z)) continue;
+    if (!query.may_meet(rotations_from(votes, i))) continue;
     const U weight = query.weights(votes, i);
     const auto near =
         hn::And(hn::Ne(weight, hn::Zero(units)), hn::FirstN(units, std::min(lanes, range.end - i)));
@@ -231,7 +236,7 @@ HWY_INLINE F squared_gap(F low, F high, const float* at) {
   const Floats d;
   const F t = hn::LoadU(d, at);
   const F gap = hn::Max(hn::Max(hn::Sub(low, t), hn::Sub(t, high)), hn::Zero(d));
-  return hn::Mul(gap, gap);
+  return squared(gap);
 }
 
 std::size_t copy(const Kernel& kernel, const VoteColumns& columns, IndexRange range,

@@ -26,9 +26,6 @@ class VoteTable {
   std::size_t stride() const { return stride_; }
   VoteColumns columns() const { return {buffer_.get(), stride_}; }
 
-  /// Makes vote i nobody's neighbour.
-  void remove(std::size_t i) { buffer_[i] = std::numeric_limits<float>::infinity(); }
-
   /// Of a table of `count` votes: what the last block holds beyond them is nobody's neighbour.
   void close(std::size_t count) {
     for (; count % kBlock != 0; ++count)
