@@ -7,14 +7,14 @@
 // mean, which are wrong for any unit but one. OpenCV compares angles of rotation, not rotations, so
 // a cluster may mix poses that share their place alone.
 //
-// Works on the preprocessed clouds, not on correspondences. OpenCV's grid has as many cells along
-// each axis of the bounding box and 160 at most, so a small object in a wide scan is sampled more
-// coarsely than it was trained. Quadratic in the sampled points: OpenCV pairs points that are
-// farther apart than the object is long, too. A scan that is flat along an axis gives nothing.
+// Works on the points that the other methods match, but on no correspondences: flat ground, of
+// which any two points are like any two of a flat side of an object, would take it hours. OpenCV's
+// grid has as many cells along each axis of the bounding box and 160 at most, so a small object in
+// a wide scan is sampled more coarsely than it was trained. Quadratic in the sampled points: OpenCV
+// pairs points that are farther apart than the object is long, too. A scan that is flat along an
+// axis gives nothing.
 //
-//   opencv_ppf: {in: [ppf_models, scene_cloud], out: hypotheses}
-#include <stdexcept>
-
+//   opencv_ppf: {in: [ppf_models, scene_features], out: hypotheses}
 #include "graph/registry.hpp"
 #include "nodes/baseline/opencv_ppf_detector.hpp"
 #include "nodes/data/ppf_model.hpp"
@@ -22,9 +22,7 @@
 namespace posevote {
 namespace {
 
-Hypotheses opencv_ppf(const PpfModel& object, const Cloud& scene, const PpfMatching& params) {
-  if (scene.normals.rows() != scene.points.rows())
-    throw std::runtime_error("the scan has points without normals");
+Hypotheses opencv_ppf(const PpfModel& object, const FeatureSet& scene, const PpfMatching& params) {
   return {object.model, object.detector->match(scene, params)};
 }
 
@@ -32,7 +30,7 @@ const auto registered =
     graph::register_node("opencv_ppf", opencv_ppf,
                          "Rival: poses that pairs of scan points vote for (OpenCV).")
         .input("ppf_models")
-        .input("scene_cloud")
+        .input("scene_features")
         .output("hypotheses")
         .param("reference_share", &PpfMatching::reference_share, "",
                "Share of the sampled scan points that vote.", graph::in_range(0.01, 1))

@@ -19,11 +19,11 @@ constexpr int kMostPoints = 3000;          // OpenCV keeps some 70 bytes for eac
 constexpr double kFinestGrid = 1.0 / 160;  // OpenCV keeps 24 bytes a cell, empty or not
 
 /// n x 6, each row a point and its normal; rows that are not usable are left out.
-cv::Mat to_opencv(const Cloud& cloud) {
+cv::Mat to_opencv(const PointMatrix& points, const PointMatrix& normals) {
   cv::Mat rows(0, 6, CV_32F);
-  rows.reserve(static_cast<std::size_t>(cloud.points.rows()));
-  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
-    const Eigen::RowVector3f p = cloud.points.row(i), n = cloud.normals.row(i);
+  rows.reserve(static_cast<std::size_t>(points.rows()));
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::RowVector3f p = points.row(i), n = normals.row(i);
     if (!p.allFinite() || !n.allFinite() || !(n.squaredNorm() > 0.5F)) continue;
     rows.push_back(cv::Mat(cv::Matx<float, 1, 6>(p.x(), p.y(), p.z(), n.x(), n.y(), n.z())));
   }
@@ -73,7 +73,7 @@ struct PpfDetector::OpenCv {
 
 PpfDetector::PpfDetector(const Cloud& model, const PpfTraining& training)
     : opencv_(std::make_unique<OpenCv>(training)), sampling_(training.sampling), diagonal_(0) {
-  const cv::Mat cloud = to_opencv(model);
+  const cv::Mat cloud = to_opencv(model.points, model.normals);
   Box box(cloud);
   if (box.is_flat())
     throw std::runtime_error("has no extent along an axis: OpenCV cannot sample it");
@@ -89,8 +89,9 @@ PpfDetector::PpfDetector(const Cloud& model, const PpfTraining& training)
 
 PpfDetector::~PpfDetector() = default;
 
-std::vector<Hypothesis> PpfDetector::match(const Cloud& scene, const PpfMatching& matching) const {
-  const cv::Mat cloud = to_opencv(scene);
+std::vector<Hypothesis> PpfDetector::match(const FeatureSet& scene,
+                                           const PpfMatching& matching) const {
+  const cv::Mat cloud = to_opencv(scene.points, scene.normals);
   const Box box(cloud);
   if (box.is_flat()) return {};
   // Documented as relative to the model, but OpenCV takes it of the scene: keep the model's

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
+#include "nodes/data/features.hpp"
 #include "nodes/data/hypotheses.hpp"
 
 namespace posevote {
@@ -31,7 +32,7 @@ class PpfDetector {
   PpfDetector& operator=(const PpfDetector&) = delete;
 
   /// Poses in descending order of votes. Safe from many threads, which wait for each other.
-  std::vector<Hypothesis> match(const Cloud& scene, const PpfMatching& matching) const;
+  std::vector<Hypothesis> match(const FeatureSet& scene, const PpfMatching& matching) const;
 
  private:
   struct OpenCv;
