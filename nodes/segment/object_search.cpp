@@ -12,12 +12,15 @@ namespace posevote {
 namespace {
 
 constexpr std::size_t kShortlist = 80;  // improved, judged by kSketch model points
-constexpr std::size_t kFinalists = 5;   // refined by ICP, judged by kClose
+constexpr std::size_t kPromising = 20;  // brought closer by coarse ICP, judged by kSketch again
+constexpr std::size_t kFinalists = 4;   // refined by ICP, judged by kClose
 constexpr Eigen::Index kGlance = 50;    // model points that judge a proposal as it came
 constexpr Eigen::Index kSketch = 300;   // ... an improved one
 constexpr Eigen::Index kLook = 1000;    // ... one of those that may be a finalist
 constexpr Eigen::Index kClose = 4000;   // ... a refined one
-constexpr Eigen::Index kIcpSamples = 1000, kPolishSamples = 10000;
+constexpr Eigen::Index kCoarseSamples = 100, kIcpSamples = 1000, kPolishSamples = 10000;
+constexpr int kCoarseSteps = 4;
+constexpr double kCoarseStill = 0.1;   // of the tolerance
 constexpr double kIcpStill = 0.02;     // of the tolerance
 constexpr double kKeptSupport = 0.95;  // ICP may lose a few chance partners at the silhouette
 constexpr double kHopeless = 0.25;     // of what is needed: ICP seldom raises a score fourfold
@@ -64,17 +67,19 @@ void ObjectSearch::propose() {
   std::erase_if(modes, [this](const PoseMode& mode) { return !is_clear(mode.center); });
   for (const std::size_t i :
        separate_modes(modes, proposed_separation(params_.nms_radius), params_.candidates)) {
-    pool_.emplace_back().mode = modes[i];
+    set_mode(pool_.emplace_back(), modes[i]);
     most_support_ = std::max(most_support_, modes[i].support);
   }
   if (pool_.size() > kShortlist) {
     judge(0, pool_.size(), kGlance);
     pool_.resize(kShortlist);
   }
-  graph::parallel_for(pool_.size(), 1,
-                      [this](std::size_t i) { pool_[i].mode = proposals_.improve(pool_[i].mode); });
+  graph::parallel_for(pool_.size(), 1, [this](std::size_t i) {
+    set_mode(pool_[i], proposals_.improve(pool_[i].mode));
+  });
   judge(0, pool_.size(), kSketch);
   leave_out_likes();
+  bring_closer();
   proposed_at_ = scan_.takes;
   choose();
 }
@@ -93,6 +98,21 @@ void ObjectSearch::leave_out_likes() {
     set_score(candidate);
   }
   pool_.swap(kept);
+  sort_by_rank(pool_.begin(), pool_.end());
+}
+
+/// A pose that its votes miss by ten degrees fits no better than a wrong one, until it has taken
+/// the first steps.
+void ObjectSearch::bring_closer() {
+  if (!params_.refine) return;
+  const IcpParams coarse{kCoarseSteps, params_.icp_distance, params_.tolerance, kCoarseSamples,
+                         kCoarseStill};
+  const std::size_t count = std::min(kPromising, pool_.size());
+  graph::parallel_for(count, 1, [&](std::size_t i) {
+    Eigen::Isometry3d& T_scene_model = pool_[i].T_scene_model;
+    T_scene_model = icp(model_.cloud, scan_.surface, T_scene_model, coarse);
+  });
+  judge(0, count, kSketch);
   sort_by_rank(pool_.begin(), pool_.end());
 }
 
@@ -127,8 +147,6 @@ void ObjectSearch::accept() {
 void ObjectSearch::judge(std::size_t begin, std::size_t end, Eigen::Index samples) {
   graph::parallel_for(end - begin, 1, [&](std::size_t i) {
     Candidate& candidate = pool_[begin + i];
-    if (!candidate.is_refined)
-      candidate.T_scene_model = T_scene_model_of(candidate.mode, model_.center);
     candidate.fit = measure(candidate.T_scene_model, samples);
     set_score(candidate);
   });
@@ -254,6 +272,11 @@ void ObjectSearch::run_icp(Candidate& candidate, const IcpParams& params) const 
       icp(model_.cloud, scan_.surface, candidate.T_scene_model, params);
   if (support(T_refined) >= kKeptSupport * support(candidate.T_scene_model))
     candidate.T_scene_model = T_refined;
+}
+
+void ObjectSearch::set_mode(Candidate& candidate, const PoseMode& mode) const {
+  candidate.mode = mode;
+  candidate.T_scene_model = T_scene_model_of(mode, model_.center);
 }
 
 void ObjectSearch::set_score(Candidate& candidate) const {

@@ -82,6 +82,7 @@ class ObjectSearch {
  private:
   void judge(std::size_t begin, std::size_t end, Eigen::Index samples);
   void leave_out_likes();
+  void bring_closer();
   void judge_again();
   std::optional<Candidate> best_finalist();
   bool is_convincing(Candidate& candidate) const;
@@ -91,6 +92,7 @@ class ObjectSearch {
   std::vector<Candidate>::iterator refine_best(std::vector<Candidate>& sorted) const;
   Candidate best_alike(const Candidate& candidate) const;
   double lead_over(const Candidate& origin, const Candidate& other) const;
+  void set_mode(Candidate& candidate, const PoseMode& mode) const;
   void set_score(Candidate& candidate) const;
   double consensus(const Candidate& candidate) const;
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const;

@@ -8,10 +8,10 @@
 // subtracted from the densities, which equals voting anew without them. The score rests on what the
 // sensor measured, free space included (measure_fit.cpp), and on how many of the features that the
 // pose explains voted for it (ObjectSearch::consensus). Cost: per object `candidates` glances,
-// 80 neighbourhood queries and sketches and some 10 looks, and again for what is not found at
-// first; per instance five ICPs, as many of twins, and one of ten thousand points. A scan without
-// votes gives no detections; that is no failure. Points without a normal are never matched. Known
-// limit: an object of which one flat side alone is seen scores low.
+// 80 neighbourhood queries and sketches, 20 coarse ICPs and some 10 looks, and again for what is
+// not found at first; per instance four ICPs, as many of twins, and one of ten thousand points. A
+// scan without votes gives no detections; that is no failure. Points without a normal are never
+// matched. Known limit: an object of which one flat side alone is seen scores low.
 //
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}
