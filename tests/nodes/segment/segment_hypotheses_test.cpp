@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "nodes/data/detections.hpp"
@@ -54,6 +55,39 @@ TEST_CASE("segment_hypotheses finds every instance once", "[segment]") {
   REQUIRE(found.size() == 2);
   CHECK(std::min(shift(found[0], kLeft), shift(found[1], kLeft)) < 0.002);
   CHECK(std::min(shift(found[0], kRight), shift(found[1], kRight)) < 0.002);
+}
+
+TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit better as they come",
+          "[segment]") {
+  Hypotheses proposed{bumpy_model(1), {}};
+  std::vector<Placed> bodies{kLeft};
+  for (const double x : {0.1, 0.25})
+    for (const double y : {-0.2, 0.0, 0.2}) {
+      bodies.push_back({1, pose(x, y, 0.8, 10 * x + y)});
+      proposed.items.push_back({bodies.back().T_scene_model, 10});
+    }
+  Cloud scan = scan_of(bodies);
+  // Of the others a half is missing.
+  const auto is_missing = [&](const Eigen::RowVector3f& point) {
+    return std::any_of(bodies.begin() + 1, bodies.end(), [&](const Placed& body) {
+      const Eigen::Vector3f t = body.T_scene_model.translation().cast<float>();
+      return (point.transpose() - t).norm() < 0.1F && point.x() > t.x();
+    });
+  };
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i)
+    if (is_missing(scan.points.row(i))) scan.points.row(i).setConstant(-5);
+  Eigen::Isometry3d rough = kLeft.T_scene_model;
+  rough.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 0.5).normalized()));
+  rough.translation().x() += 0.01;
+  proposed.items.push_back({rough, 10});
+  PerObject<Hypotheses> objects;
+  objects.slots = {std::make_shared<Hypotheses>(proposed)};
+  const auto found = run_node<Detections>("segment_hypotheses", {{"min_score", "0.05"}}, objects,
+                                          features_of(scan), scan, Scale{kResolution})
+                         .items;
+  REQUIRE(found.size() == 1);
+  CHECK(shift(found[0], kLeft) < 0.002);
+  CHECK(found[0].score > 0.5);
 }
 
 TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment]") {
