@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "nodes/write/disc_kernel.hpp"
+
 namespace posevote {
 namespace {
 
@@ -57,29 +59,12 @@ std::uint32_t to_pixel(const Colour& colour) {
   return pixel;
 }
 
-/// Places left and right of the center that a row of a disc covers.
-struct Span {
-  int first = 0, last = -1;
-};
-
-/// Inside of a disc is dx^2 + dy^2 + (tilt . (dx, dy))^2 <= radius^2.
-Span row_of(const Disc& disc, float radius, float dy) {
-  const float tx = disc.tilt.x(), ty = disc.tilt.y();
-  const float a = 1 + tx * tx;
-  const float b = tx * ty * dy;
-  const float root = radius * radius * a - dy * dy * (a + ty * ty);
-  if (!(root >= 0)) return {};
-  const float half = std::sqrt(root);
-  return {static_cast<int>(std::ceil((-b - half) / a)),
-          static_cast<int>(std::floor((-b + half) / a))};
-}
-
 }  // namespace
 
 Canvas::Canvas(int width, int height, const Colour& background)
     : width_(width),
       height_(height),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + kDiscPadding),
       depth_(pixels_.size(), std::numeric_limits<float>::infinity()) {
   fill(0, 0, width, height, background);
 }
@@ -100,29 +85,18 @@ void Canvas::draw(const Disc& disc, const Colour& colour) {
   constexpr float kMost = 40;
   const bool in_reach = std::abs(disc.x) < 1e6F && std::abs(disc.y) < 1e6F;
   if (!in_reach || !(disc.radius >= 0) || !(disc.tilt.norm() <= 1e3F)) return;
-  const std::uint32_t pixel = to_pixel(colour);
   const float radius = std::min(disc.radius, kMost);
   const int reach = static_cast<int>(radius);
   const int center_x = static_cast<int>(std::lround(disc.x));
   const int center_y = static_cast<int>(std::lround(disc.y));
-  const int last_row = std::min(height_ - 1, center_y + reach);
-  for (int row = std::max(0, center_y - reach); row <= last_row; ++row) {
-    const auto dy = static_cast<float>(row - center_y);
-    const Span span = row_of(disc, radius, dy);
-    const int first = std::max(span.first, -center_x);
-    const int count = std::min(span.last, width_ - 1 - center_x) - first + 1;
-    if (count <= 0) continue;
-    float* depths = &depth_[index(row, center_x + first)];
-    std::uint32_t* pixels = &pixels_[index(row, center_x + first)];
-    const float slope = disc.tilt.x() * disc.pixel;
-    const float start = disc.depth + disc.tilt.y() * dy * disc.pixel;
-    for (int i = 0; i < count; ++i) {
-      const float depth = start + slope * static_cast<float>(first + i);
-      const bool nearer = depth < depths[i];
-      depths[i] = nearer ? depth : depths[i];
-      pixels[i] = nearer ? pixel : pixels[i];
-    }
-  }
+  const int left = std::max(0, center_x - reach), top = std::max(0, center_y - reach);
+  const int columns = std::min(width_, center_x + reach + 1) - left;
+  const int rows = std::min(height_, center_y + reach + 1) - top;
+  if (columns <= 0 || rows <= 0) return;
+  draw_disc({left - center_x, top - center_y, columns, rows, &depth_[index(top, left)],
+             &pixels_[index(top, left)], static_cast<std::size_t>(width_), radius, disc.tilt.x(),
+             disc.tilt.y(), disc.depth, disc.pixel},
+            to_pixel(colour));
 }
 
 Canvas Canvas::halved() const {
@@ -166,9 +140,9 @@ void Canvas::save(const std::filesystem::path& png) const {
   image.flags = PNG_IMAGE_FLAG_FAST;  // a tenth larger, much faster
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * pixels_.size());
-  for (const std::uint32_t pixel : pixels_)
+  for (std::size_t i = 0; i < pixels_.size() - kDiscPadding; ++i)
     for (int shift = 0; shift < 24; shift += 8)
-      bytes.push_back(static_cast<std::uint8_t>(pixel >> shift));
+      bytes.push_back(static_cast<std::uint8_t>(pixels_[i] >> shift));
   std::string problem;
   if (png_image_write_to_file(&image, temporary.c_str(), 0, bytes.data(), 0, nullptr) == 0)
     problem = image.message;

@@ -48,7 +48,7 @@ class Canvas {
 
   int width_;
   int height_;
-  std::vector<std::uint32_t> pixels_;  ///< height x width; red in the lowest byte
+  std::vector<std::uint32_t> pixels_;  ///< height x width and kDiscPadding; red in the lowest byte
   std::vector<float> depth_;
 };
 

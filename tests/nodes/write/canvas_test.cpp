@@ -2,10 +2,14 @@
 #include "nodes/write/canvas.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
+#include <random>
+#include <vector>
 
 #include "tests/nodes/write/picture.hpp"
 #include "tests/nodes/write/writer.hpp"
+#include "tests/support/instruction_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;
@@ -55,6 +59,67 @@ TEST_CASE("a disc is round; tilted, it is narrow and its depth varies", "[write]
   CHECK(picture.at(40, 30) == Rgb{255, 0, 0});
   CHECK(picture.at(20, 30) == Rgb{0, 255, 0});
   CHECK(picture.at(45, 30) == Rgb{0, 255, 0});  // 15 pixels across at 45 degrees: beyond its edge
+}
+
+TEST_CASE("discs are drawn as they are defined, on each instruction set, at the edges too",
+          "[write]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
+  constexpr int kWidth = 61, kHeight = 47;
+  std::mt19937 random(5);
+  const auto uniform = [&random](double low, double high) {
+    return static_cast<float>(low + (high - low) * static_cast<double>(random()) / 4294967295.0);
+  };
+  std::vector<Disc> discs;
+  std::vector<Colour> colours;
+  for (int i = 0; i < 120; ++i) {
+    Disc& made =
+        discs.emplace_back(disc(uniform(-20, 80), uniform(-20, 66), uniform(1, 2), uniform(0, 30)));
+    made.tilt = {uniform(-2, 2), uniform(-2, 2)};
+    made.pixel = 0.01F;
+    colours.emplace_back(uniform(0, 1), uniform(0, 1), uniform(0, 1));
+  }
+  // The nearest disc of each pixel; -2 where rounding decides.
+  const auto nearest = [&](int x, int y) {
+    int best = -1;
+    double depth = 1e9;
+    bool is_clear = true;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      const Disc& d = discs[i];
+      const auto dx = static_cast<double>(x - std::lround(d.x));
+      const auto dy = static_cast<double>(y - std::lround(d.y));
+      const double gain =
+          static_cast<double>(d.tilt.x()) * dx + static_cast<double>(d.tilt.y()) * dy;
+      const double squared = dx * dx + dy * dy + gain * gain,
+                   radius = static_cast<double>(d.radius);
+      const bool is_inside =
+          squared <= radius * radius && std::max(std::abs(dx), std::abs(dy)) <= std::floor(radius);
+      const double here = static_cast<double>(d.depth) + gain * static_cast<double>(d.pixel);
+      is_clear =
+          is_clear && std::abs(squared - radius * radius) > 1e-3 && std::abs(here - depth) > 1e-5;
+      if (!is_inside || here >= depth) continue;
+      best = static_cast<int>(i);
+      depth = here;
+    }
+    return is_clear ? best : -2;
+  };
+  Canvas canvas(kWidth, kHeight, kWhite);
+  for (std::size_t i = 0; i < discs.size(); ++i) canvas.draw(discs[i], colours[i]);
+  const Picture picture = saved(canvas);
+  int checked = 0, wrong = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const int i = nearest(x, y);
+      if (i == -2) continue;
+      const Colour colour = i < 0 ? kWhite : colours[static_cast<std::size_t>(i)];
+      const auto byte = [&](int k) {
+        return static_cast<std::uint8_t>(std::lround(255 * colour(k)));
+      };
+      ++checked;
+      wrong += !(picture.at(x, y) == Rgb{byte(0), byte(1), byte(2)});
+    }
+  CHECK(checked > kWidth * kHeight / 2);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("half the size: each pixel the mean of four", "[write]") {
