@@ -132,3 +132,29 @@ TEST_CASE("the Bunny onto itself under a random pose, without ICP", "[real]") {
     CHECK(error.degrees < 1);
   }
 }
+
+TEST_CASE("real RGB-D images: what must be found", "[real]") {
+  struct Expected {
+    std::string set, arguments, rule;
+    double least_recall;
+  };
+  const auto expected =
+      GENERATE(Expected{"bunny_turntable", "bop", "pose", 1},
+               Expected{"icbin", "icbin --set segment_objects.max_instances=15", "adi15", 0.7},
+               Expected{"lmo", "bop", "add", 0.5});
+  const std::filesystem::path data = data_folder() / expected.set;
+  if (skipped(data)) return;
+  const TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  const CommandResult run = run_posevote(
+      folder, "run " + expected.arguments + " --dataset " + data.string() + " --out " + out);
+  INFO(run.output);
+  REQUIRE(run.status == 0);
+  const CommandResult evaluate =
+      run_posevote(folder, "evaluate " + data.string() + " " + out + "/results.csv --rules " +
+                               expected.rule + " --out " + out + "/judged");
+  INFO(evaluate.output);
+  REQUIRE(evaluate.status == 0);
+  const nlohmann::json all = read_json(folder / "out/judged/evaluation.json")["all"];
+  CHECK(all[0]["recall"].get<double>() >= expected.least_recall);
+}
