@@ -15,6 +15,8 @@
 // axis gives nothing.
 //
 //   opencv_ppf: {in: [ppf_models, scene_features], out: hypotheses}
+#include <stdexcept>
+
 #include "graph/registry.hpp"
 #include "nodes/baseline/opencv_ppf_detector.hpp"
 #include "nodes/data/ppf_model.hpp"
@@ -23,6 +25,8 @@ namespace posevote {
 namespace {
 
 Hypotheses opencv_ppf(const PpfModel& object, const FeatureSet& scene, const PpfMatching& params) {
+  if (scene.normals.rows() != scene.points.rows())
+    throw std::runtime_error("the scan has points without normals");
   return {object.model, object.detector->match(scene, params)};
 }
 

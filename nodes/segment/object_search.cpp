@@ -102,7 +102,7 @@ void ObjectSearch::leave_out_likes() {
 }
 
 /// A pose that its votes miss by ten degrees fits no better than a wrong one, until it has taken
-/// the first steps.
+/// the first steps. All are kept: the sketch judges where they led.
 void ObjectSearch::bring_closer() {
   if (!params_.refine) return;
   const IcpParams coarse{kCoarseSteps, params_.icp_distance, params_.tolerance, kCoarseSamples,

@@ -45,7 +45,7 @@ struct Candidate {
   Fit fit;
   double score = 0;               ///< of the fit alone
   double consensus = 1;           ///< in [0, 1], of votes, for the best of a search
-  bool is_refined = false;        ///< whether the pose is after ICP
+  bool is_refined = false;        ///< by all steps of ICP
   std::size_t near_symmetry = 0;  ///< for twins: which of the model's made them
   double rank = 0;  ///< by which poses are chosen: the score, a little lower for less support
   double confidence() const { return score * consensus; }  ///< that of the detection

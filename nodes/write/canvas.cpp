@@ -93,9 +93,18 @@ void Canvas::draw(const Disc& disc, const Colour& colour) {
   const int columns = std::min(width_, center_x + reach + 1) - left;
   const int rows = std::min(height_, center_y + reach + 1) - top;
   if (columns <= 0 || rows <= 0) return;
-  draw_disc({left - center_x, top - center_y, columns, rows, &depth_[index(top, left)],
-             &pixels_[index(top, left)], static_cast<std::size_t>(width_), radius, disc.tilt.x(),
-             disc.tilt.y(), disc.depth, disc.pixel},
+  draw_disc({.left = left - center_x,
+             .top = top - center_y,
+             .columns = columns,
+             .rows = rows,
+             .depths = &depth_[index(top, left)],
+             .pixels = &pixels_[index(top, left)],
+             .stride = static_cast<std::size_t>(width_),
+             .radius = radius,
+             .tilt_x = disc.tilt.x(),
+             .tilt_y = disc.tilt.y(),
+             .depth = disc.depth,
+             .pixel_size = disc.pixel},
             to_pixel(colour));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job on real scans with reference poses. They may not be copied into the project: where
 // they are missing, these tests say that they skip.
+#include "tests/support/real_data.hpp"
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -67,7 +69,7 @@ std::string uwa_arguments(const std::filesystem::path& data) {
 }  // namespace
 
 TEST_CASE("all four objects of a real laser scan, at any thread count", "[real]") {
-  const std::filesystem::path data = data_folder() / "uwa";
+  const std::filesystem::path data = real_data() / "uwa";
   if (skipped(data)) return;
   const TemporaryFolder folder;
   std::string first;
@@ -99,7 +101,7 @@ TEST_CASE("all four objects of a real laser scan, at any thread count", "[real]"
 }
 
 TEST_CASE("the Bunny onto itself under a random pose, without ICP", "[real]") {
-  const std::filesystem::path file = data_folder() / "bunny/bunny.ply";
+  const std::filesystem::path file = real_data() / "bunny/bunny.ply";
   if (skipped(file)) return;
   const TemporaryFolder folder;
   const Cloud bunny = read_cloud(file, 1);
@@ -142,7 +144,7 @@ TEST_CASE("real RGB-D images: what must be found", "[real]") {
       GENERATE(Expected{"bunny_turntable", "bop", "pose", 1},
                Expected{"icbin", "icbin --set segment_objects.max_instances=15", "adi15", 0.7},
                Expected{"lmo", "bop", "add", 0.5});
-  const std::filesystem::path data = data_folder() / expected.set;
+  const std::filesystem::path data = real_data() / expected.set;
   if (skipped(data)) return;
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string();

@@ -31,11 +31,4 @@ inline nlohmann::json read_json(const std::filesystem::path& file) {
   return nlohmann::json::parse(read_text(file));
 }
 
-/// Real scans, where they are there: beside the project, or where POSEVOTE_DATA points.
-inline std::filesystem::path data_folder() {
-  const char* named = std::getenv("POSEVOTE_DATA");
-  return named ? std::filesystem::path(named)
-               : std::filesystem::path(POSEVOTE_SOURCE_DIR) / ".." / "shared" / "data";
-}
-
 }  // namespace posevote::test

@@ -39,11 +39,12 @@ PerObject<PpfModel> train(const std::vector<std::shared_ptr<const Model>>& model
                                        ModelLibrary{models, Scale{kResolution}, nullptr});
 }
 
-Hypotheses find(const PpfModel& trained, const Cloud& scan) {
-  FeatureSet features;
-  features.points = scan.points;
-  features.normals = scan.normals;
+Hypotheses find(const PpfModel& trained, const FeatureSet& features) {
   return run_node<Hypotheses>("opencv_ppf", {}, trained, features);
+}
+
+Hypotheses find(const PpfModel& trained, const Cloud& scan) {
+  return find(trained, features_of(scan, 1));
 }
 
 bool is_near(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth) {
@@ -110,6 +111,9 @@ TEST_CASE("opencv_ppf finds nothing in a scan of nothing, or of no depth", "[bas
     few.normals = scan.normals.topRows(rows);
     CHECK(find(trained[0], few).items.empty());
   }
+  FeatureSet bare = features_of(scan, 1);
+  bare.normals.resize(0, 3);
+  CHECK(message([&] { find(trained[0], bare); }).find("normals") != std::string::npos);
 }
 
 TEST_CASE("train_opencv_ppf names the model that it cannot train", "[baseline][ppf]") {

@@ -24,13 +24,17 @@ Hypothesis beside(const Placed& body, double metres, double support) {
 
 using Values = std::map<std::string, std::string>;
 
-std::vector<Detection> segment(const std::vector<Hypothesis>& hypotheses, const Values& values) {
+std::vector<Detection> segment(const Hypotheses& proposed, const Cloud& scan,
+                               const Values& values) {
   PerObject<Hypotheses> objects;
-  objects.slots = {std::make_shared<Hypotheses>(Hypotheses{bumpy_model(1), hypotheses})};
-  const Cloud scan = scan_of({kLeft, kRight});
+  objects.slots = {std::make_shared<Hypotheses>(proposed)};
   return run_node<Detections>("segment_hypotheses", values, objects, features_of(scan), scan,
                               Scale{kResolution})
       .items;
+}
+
+std::vector<Detection> segment(const std::vector<Hypothesis>& hypotheses, const Values& values) {
+  return segment({bumpy_model(1), hypotheses}, scan_of({kLeft, kRight}), values);
 }
 
 double shift(const Detection& found, const Placed& body) {
@@ -80,11 +84,7 @@ TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit bett
   rough.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 0.5).normalized()));
   rough.translation().x() += 0.01;
   proposed.items.push_back({rough, 10});
-  PerObject<Hypotheses> objects;
-  objects.slots = {std::make_shared<Hypotheses>(proposed)};
-  const auto found = run_node<Detections>("segment_hypotheses", {{"min_score", "0.05"}}, objects,
-                                          features_of(scan), scan, Scale{kResolution})
-                         .items;
+  const auto found = segment(proposed, scan, {{"min_score", "0.05"}});
   REQUIRE(found.size() == 1);
   CHECK(shift(found[0], kLeft) < 0.002);
   CHECK(found[0].score > 0.5);
@@ -98,12 +98,7 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
   auto model = std::make_shared<Model>(*bumpy_model(1));
   const auto found_with = [&](const NearSymmetries& near_symmetries) {
     model->near_symmetries = near_symmetries;
-    PerObject<Hypotheses> objects;
-    objects.slots = {std::make_shared<Hypotheses>(
-        Hypotheses{model, {{kLeft.T_scene_model * turned.inverse(), 9}}})};
-    return run_node<Detections>("segment_hypotheses", {}, objects, features_of(scan), scan,
-                                Scale{kResolution})
-        .items;
+    return segment({model, {{kLeft.T_scene_model * turned.inverse(), 9}}}, scan, {});
   };
   const auto alone = found_with({});
   CHECK((alone.empty() || shift(alone[0], kLeft) > 0.002 || alone[0].score < 0.8));
@@ -133,12 +128,9 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
   REQUIRE(for_wrong.size() > 100);
   const auto is_found = [&](const NearSymmetry& near_symmetry) {
     model->near_symmetries = {{near_symmetry}};
-    PerObject<Hypotheses> objects;
-    objects.slots = {std::make_shared<Hypotheses>(Hypotheses{model, {{wrong, 9}}})};
-    const auto found = run_node<Detections>("segment_hypotheses", {{"refine", "false"}}, objects,
-                                            features_of(scan), scan, Scale{kResolution});
-    return found.items.size() == 1 &&
-           found.items[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
+    const auto found = segment({model, {{wrong, 9}}}, scan, {{"refine", "false"}});
+    return found.size() == 1 &&
+           found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
   };
   CHECK(is_found({turned, {}, {}}));  // by rank
   CHECK(is_found({turned, for_right, {}}));
