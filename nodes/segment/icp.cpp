@@ -21,9 +21,11 @@ constexpr double kSlow = 0.1;  // of the final search radius: a shorter step cal
 constexpr std::size_t kFewestPairs = 10;
 constexpr double kShrink = 0.85;  // of the search radius per iteration
 constexpr double kUnobserved =
-    1e-4;                          // eigenvalue, as a share of the pairs' weight: not moved at all
-constexpr double kDamping = 0.01;  // likewise: weakly held directions take several small steps
-constexpr double kMaxTurn = 0.2;   // [rad] per iteration
+    1e-4;  // eigenvalue, as a share of the pairs' weight: not moved at all
+// Likewise: weakly held directions take several small steps as long as chance partners are many,
+// and get there once the search radius is the last.
+constexpr double kDamping = 0.01, kFinalDamping = 1e-3;
+constexpr double kMaxTurn = 0.2;  // [rad] per iteration
 
 /// A posed model point on its scan point's tangent plane.
 struct Pair {
@@ -84,7 +86,7 @@ Pivot find_pivot(const std::vector<Pair>& pairs) {
 }
 
 /// (lever x turn, shift) that brings the points closer to the planes.
-Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot) {
+Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping) {
   Matrix6d normal_matrix = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weight = 0;
@@ -100,8 +102,7 @@ Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot) {
   for (Eigen::Index k = 0; k < 6; ++k) {
     const double held = solver.eigenvalues()[k];
     const Vector6d direction = solver.eigenvectors().col(k);
-    if (held > kUnobserved)
-      step -= direction.dot(gradient) / weight / (held + kDamping) * direction;
+    if (held > kUnobserved) step -= direction.dot(gradient) / weight / (held + damping) * direction;
   }
   return step;
 }
@@ -139,7 +140,8 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
     if (pairs.size() < kFewestPairs) break;
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) break;
-    const Vector6d step = limit_step(solve_step(pairs, pivot), pivot.lever, distance);
+    const double damping = distance > end ? kDamping : kFinalDamping;
+    const Vector6d step = limit_step(solve_step(pairs, pivot, damping), pivot.lever, distance);
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
     const bool is_done = distance <= end && step.norm() <= (few ? kSlow : params.still) * end;

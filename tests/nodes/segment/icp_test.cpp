@@ -109,6 +109,21 @@ TEST_CASE("on a plane ICP settles in depth and does not slide", "[segment]") {
   }
 }
 
+TEST_CASE("ICP goes all the way where little holds it", "[segment]") {
+  const auto ripple = [](Cloud cloud) {  // slopes of 1.3 deg along x
+    for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+      const float phase = cloud.points(i, 0) / 0.01F;
+      cloud.points(i, 2) += 0.0003F * std::cos(phase);
+      cloud.normals.row(i) = Eigen::RowVector3f(-0.03F * std::sin(phase), 0, -1).normalized();
+    }
+    return cloud;
+  };
+  const ScanSurface surface(ripple(noisy_plane(0.2F, 0, 0)), true, kReach);
+  const Eigen::Isometry3d start(Eigen::Translation3d(0.005, 0, 0));
+  const Eigen::Isometry3d end = icp(ripple(noisy_plane(0.06F, 0, 0)), surface, start, kParams);
+  CHECK(std::abs(end.translation().x()) < 0.0005);
+}
+
 TEST_CASE("without partners ICP returns its start", "[segment]") {
   const Placed body{1, pose(0, 0, 0.8, 0)};
   const auto model = bumpy_model(1);
