@@ -54,8 +54,10 @@ std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanSt
       if (std::all_of(sorted.begin(), sorted.end(),
                       [](const ObjectSearch* s) { return s->is_full(); }))
         return found;
-      scan.take_out(search->model(), instance.candidate.T_scene_model,
-                    search->params().explained_distance);
+      const Eigen::Isometry3d& T_scene_model = instance.candidate.T_scene_model;
+      scan.take_out(search->model(), T_scene_model, search->params().explained_distance);
+      scan.usual_residual.add(instance.candidate.fit,
+                              scan.range_of(search->model(), T_scene_model));
       search->choose();
     }
   return found;

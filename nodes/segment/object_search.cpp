@@ -39,8 +39,11 @@ constexpr double kTrustInSupport = 0.1;
 // shapes that only look alike from one side, where each casts 60 votes. The fit tells how much of
 // the surface is there, the consensus how many of the features on it had voted for the pose before
 // anybody looked.
-constexpr double kTrustInConsensus = 0.2;
+constexpr double kTrustInConsensus = 0.15;
 constexpr double kUsualVotes = 60;
+
+// Of the tolerance: so much the points' own distances may leave where there is no noise.
+constexpr double kSampled = 0.15;
 
 // Of an object that is hardly seen the right pose is no denser than wrong ones beside it. So modes
 // are proposed finely, and what lies near a better one goes when all have been judged.
@@ -249,8 +252,8 @@ void ObjectSearch::refine(Candidate& candidate) const {
   if (!candidate.is_refined)
     run_icp(candidate, {params_.icp_iterations, params_.icp_distance, params_.tolerance,
                         kIcpSamples, kIcpStill});
-  candidate.fit = measure(candidate.T_scene_model, kClose);
   candidate.is_refined = true;
+  candidate.fit = measure(candidate.T_scene_model, kClose);
   set_score(candidate);
 }
 
@@ -281,8 +284,17 @@ void ObjectSearch::set_mode(Candidate& candidate, const PoseMode& mode) const {
 
 void ObjectSearch::set_score(Candidate& candidate) const {
   candidate.score = fit_score(candidate.fit);
+  if (candidate.is_refined) candidate.score *= exactness(candidate);
   candidate.rank =
       candidate.score * std::pow(candidate.mode.support / most_support_, kTrustInSupport);
+}
+
+/// In (0, 1], by the instances of all objects that were found before.
+double ObjectSearch::exactness(const Candidate& candidate) const {
+  if (!params_.refine || params_.max_residual == 0) return 1;  // rough poses leave more than noise
+  return scan_.usual_residual.exactness(
+      candidate.fit, scan_.range_of(model_, candidate.T_scene_model), params_.max_residual,
+      kSampled * static_cast<double>(params_.tolerance));
 }
 
 /// In [0, 1], from the support per feature of the scan that the pose explains.

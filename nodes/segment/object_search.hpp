@@ -24,6 +24,7 @@ struct InstanceParams {
   int icp_iterations = 40;       ///< at most
   float icp_distance = 0;        ///< search radius of the first iteration [m]
   float tolerance = 0;           ///< of support [m]
+  double max_residual = 0;       ///< x usual; what leaves more is less exact. 0: nothing is
   float explained_distance = 0;  ///< scan points this near to an instance are taken out [m]
 };
 
@@ -43,7 +44,7 @@ struct Candidate {
   PoseMode mode;  ///< before ICP
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
-  double score = 0;               ///< of the fit alone
+  double score = 0;               ///< of the fit, and of its exactness when refined
   double consensus = 1;           ///< in [0, 1], of votes, for the best of a search
   bool is_refined = false;        ///< by all steps of ICP
   std::size_t near_symmetry = 0;  ///< for twins: which of the model's made them
@@ -94,6 +95,7 @@ class ObjectSearch {
   double lead_over(const Candidate& origin, const Candidate& other) const;
   void set_mode(Candidate& candidate, const PoseMode& mode) const;
   void set_score(Candidate& candidate) const;
+  double exactness(const Candidate& candidate) const;
   double consensus(const Candidate& candidate) const;
   Fit measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index samples) const;
   Eigen::Vector3f center_of(const Candidate& candidate) const;

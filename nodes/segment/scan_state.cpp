@@ -30,6 +30,10 @@ void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_mo
     feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
 }
 
+double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
+  return (T_scene_model * model.center.cast<double>() - cloud.viewpoint.cast<double>()).norm();
+}
+
 std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
                                        float distance) const {
   const PointGrid grid(model.cloud.points, distance);

@@ -8,6 +8,7 @@
 #include "nodes/data/model.hpp"
 #include "nodes/segment/range_view.hpp"
 #include "nodes/segment/scan_surface.hpp"
+#include "nodes/segment/usual_residual.hpp"
 
 namespace posevote {
 
@@ -22,6 +23,9 @@ struct ScanState {
   std::size_t count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
                               float distance) const;
 
+  /// How far a posed model's centre is from the sensor [m].
+  double range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
+
   const Cloud& cloud;
   const FeatureSet& features;
   float resolution;  // [m]
@@ -29,6 +33,7 @@ struct ScanState {
   ScanSurface surface;
   std::vector<char> feature_explained;  // per scene feature
   int takes = 0;                        // how often something was taken out
+  UsualResidual usual_residual;         // of what was found
 };
 
 }  // namespace posevote

@@ -6,12 +6,13 @@
 // whatever object (find_instances.hpp), so that no wrong object is left with a right one's points.
 // Correspondences that start at explained points are taken out of all objects; their votes are
 // subtracted from the densities, which equals voting anew without them. The score rests on what the
-// sensor measured, free space included (measure_fit.cpp), and on how many of the features that the
-// pose explains voted for it (ObjectSearch::consensus). Cost: per object `candidates` glances,
-// 80 neighbourhood queries and sketches, 20 coarse ICPs and some 10 looks, and again for what is
-// not found at first; per instance four ICPs, as many of twins, and one of ten thousand points. A
-// scan without votes gives no detections; that is no failure. Points without a normal are never
-// matched. Known limit: an object of which one flat side alone is seen scores low.
+// sensor measured, free space included (measure_fit.cpp), on how exactly the pose lies there, as
+// instances found before do (usual_residual.hpp), and on how many of the features that it explains
+// voted for it (ObjectSearch::consensus). Cost: per object `candidates` glances, 80 neighbourhood
+// queries and sketches, 20 coarse ICPs and some 10 looks, and again for what is not found at first;
+// per instance four ICPs, as many of twins, and one of ten thousand points. A scan without votes
+// gives no detections; that is no failure. Points without a normal are never matched. Known limit:
+// an object of which one flat side alone is seen scores low.
 //
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}

@@ -29,6 +29,7 @@ InstanceParams instance_params(const SegmentParams& params, const Model& model, 
   out.icp_distance = length(params.icp_distance);
   out.tolerance = length(params.inlier_distance);
   out.explained_distance = length(params.explained_distance);
+  out.max_residual = params.max_residual;
   return out;
 }
 

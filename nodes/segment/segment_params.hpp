@@ -21,6 +21,7 @@ struct SegmentParams {
   int icp_iterations = 40;
   double inlier_distance = 2;
   double explained_distance = 3;
+  double max_residual = 1.5;
 };
 
 /// The lengths for one object [m].
@@ -60,6 +61,10 @@ Registration with_segment_params(Registration node) {
              "A model point with a scan point this near is supported.", graph::in_range(0.1, 100));
   node.param("explained_distance", &P::explained_distance, "x resolution",
              "Scan points this near to a detection are taken out.", graph::in_range(0.1, 100));
+  node.param("max_residual", &P::max_residual, "x usual",
+             "An instance that leaves more than this many times the residual of the scan's others "
+             "loses score by the square: a look-alike. 0: none does.",
+             graph::in_range(0, 1000));
   return node;
 }
 

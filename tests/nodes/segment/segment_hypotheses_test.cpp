@@ -90,6 +90,28 @@ TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit bett
   CHECK(found[0].score > 0.5);
 }
 
+TEST_CASE("a look-alike that lies off by more than the others is told by them", "[segment]") {
+  Cloud scan = scan_of({kLeft, kRight});
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {  // the right body has waves of 4 mm
+    const Eigen::RowVector3f p = scan.points.row(i);
+    const float wave = 0.004F * std::sin(400 * p.x()) * std::sin(400 * p.y());
+    if (p.x() > 0 && p.z() < 1) scan.points.row(i) += wave * scan.normals.row(i);
+  }
+  const Hypothesis left = beside(kLeft, 0, 30), right = beside(kRight, 0, 29);
+  const auto found = [&](const std::vector<Hypothesis>& hypotheses, const char* max_residual) {
+    return segment({bumpy_model(1), hypotheses}, scan,
+                   {{"max_instances", "2"}, {"min_score", "0.6"}, {"max_residual", max_residual}});
+  };
+  const auto both = found({left, right}, "0");
+  REQUIRE(both.size() == 2);
+  INFO("rmse " << both[0].rmse << ", " << both[1].rmse);
+  CHECK(shift(both[1], kRight) < 0.002);
+  const auto told = found({left, right}, "1.5");
+  REQUIRE(told.size() == 1);
+  CHECK(shift(told[0], kLeft) < 0.002);
+  CHECK(found({right}, "1.5").size() == 1);  // of itself it says nothing
+}
+
 TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment]") {
   const Cloud scan = scan_of({kLeft});
   Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();

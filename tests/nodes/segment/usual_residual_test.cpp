@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/segment/usual_residual.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace posevote;
+
+namespace {
+
+Fit fit_of(double rmse, std::size_t supported = 100) {
+  Fit fit;
+  fit.rmse = rmse;
+  fit.supported = supported;
+  return fit;
+}
+
+}  // namespace
+
+TEST_CASE("exactness is judged by the instances before", "[segment]") {
+  UsualResidual usual;
+  CHECK(usual.exactness(fit_of(0.1), 1, 1.5, 0) == 1);  // there are none
+  usual.add(fit_of(0.001), 1);
+  CHECK(usual.exactness(fit_of(0.0015), 1, 1.5, 0) == 1);
+  CHECK(usual.exactness(fit_of(0.003), 1, 1.5, 0) == Approx(0.25));
+  CHECK(usual.exactness(fit_of(0.003), 1, 1.5, 0.003) == 1);
+  usual.add(fit_of(0.002, 300), 1);  // the mean of squares, by support
+  CHECK(usual.exactness(fit_of(0.006), 1, 1, 0) == Approx(3.25 / 36));
+}
+
+TEST_CASE("what is farther away may be less exact", "[segment]") {
+  UsualResidual usual;
+  usual.add(fit_of(0.001), 1);
+  CHECK(usual.exactness(fit_of(0.004), 2, 1, 0) == 1);
+  CHECK(usual.exactness(fit_of(0.008), 2, 1, 0) == Approx(0.25));
+  CHECK(usual.exactness(fit_of(0.001), 0.5, 1, 0) == 1);  // but what is nearer need not be more so
+}
+
+TEST_CASE("instances that leave nothing ask for as much as the least", "[segment]") {
+  UsualResidual usual;
+  usual.add(fit_of(0), 1);
+  CHECK(usual.exactness(fit_of(0.0005), 1, 1.5, 0.0005) == 1);
+  CHECK(usual.exactness(fit_of(0.001), 1, 1.5, 0.0005) == Approx(0.25));
+}
