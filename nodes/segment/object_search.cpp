@@ -289,7 +289,7 @@ void ObjectSearch::set_score(Candidate& candidate) const {
       candidate.score * std::pow(candidate.mode.support / most_support_, kTrustInSupport);
 }
 
-/// In (0, 1], by the instances of all objects that were found before.
+/// In [0.6, 1], by the instances of all objects that were found before.
 double ObjectSearch::exactness(const Candidate& candidate) const {
   if (!params_.refine || params_.max_residual == 0) return 1;  // rough poses leave more than noise
   return scan_.usual_residual.exactness(

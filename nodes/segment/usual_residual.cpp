@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace posevote {
+namespace {
+
+// A model of lower quality than the others leaves more, too: that alone sinks no pose that fits
+// well.
+constexpr double kLeastExactness = 0.6;
+
+}  // namespace
 
 void UsualResidual::add(const Fit& fit, double range) {
   const auto weight = static_cast<double>(fit.supported);
@@ -19,7 +26,8 @@ double UsualResidual::exactness(const Fit& fit, double range, double times, doub
   if (!(weight_ > 0)) return 1;
   const double farther = range_ > 0 ? std::max(1.0, range * weight_ / range_) : 1;
   const double most = std::max(least, times * std::sqrt(squared_ / weight_) * farther * farther);
-  return fit.rmse > most ? most * most / (fit.rmse * fit.rmse) : 1;
+  if (fit.rmse <= most) return 1;
+  return std::max(kLeastExactness, most * most / (fit.rmse * fit.rmse));
 }
 
 }  // namespace posevote

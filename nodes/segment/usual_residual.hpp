@@ -6,8 +6,7 @@
 //
 // Measured against the best instance of the same scan, on two simulated laser sets and three
 // simulated and real RGB-D sets: 99 of 100 true instances stay below 1.63 times, all below 1.91;
-// look-alikes among the clutter reach 2 to 4. Known limit: models of quite different quality in one
-// library, of which the worse leave more than the better.
+// look-alikes among the clutter reach 2 to 4.
 #pragma once
 
 #include "nodes/segment/measure_fit.hpp"
@@ -18,7 +17,7 @@ class UsualResidual {
  public:
   /// Of an instance at a distance of `range` from the sensor [m]. Counts by its support.
   void add(const Fit& fit, double range);
-  /// In (0, 1]: 1 for a pose that leaves at most `times` as much as the instances before, or
+  /// In [0.6, 1]: 1 for a pose that leaves at most `times` as much as the instances before, or
   /// `least` [m]; falls with the square of what is more. 1 where nothing was found yet.
   double exactness(const Fit& fit, double range, double times, double least) const;
 
