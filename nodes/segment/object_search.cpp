@@ -252,8 +252,8 @@ void ObjectSearch::refine(Candidate& candidate) const {
   if (!candidate.is_refined)
     run_icp(candidate, {params_.icp_iterations, params_.icp_distance, params_.tolerance,
                         kIcpSamples, kIcpStill});
-  candidate.is_refined = true;
   candidate.fit = measure(candidate.T_scene_model, kClose);
+  candidate.is_refined = true;
   set_score(candidate);
 }
 
