@@ -14,6 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What it was trained by: the same models and parameters give another library after a change of
+/// the nodes.
+constexpr const char* kThisProgram = "/proc/self/exe";
+
 /// The parameters, and obj_id and name of each model: bytes alone do not say which object it is.
 std::string parameters_with_names(const Configuration& configuration, const ModelFiles& models) {
   std::string text = training_parameters(configuration.models);
@@ -44,7 +48,7 @@ std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models,
                                                    const fs::path& folder) {
-  std::vector<fs::path> files;
+  std::vector<fs::path> files{kThisProgram};
   for (const ModelFile& model : models) files.push_back(model.path);
   const std::string key = hash_files(files, parameters_with_names(configuration, models));
   const fs::path file = folder / (key + ".library");

@@ -15,9 +15,9 @@ namespace posevote {
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
                                           const ModelFiles& models);
 
-/// The library from `folder` if one for exactly these model bytes and parameters is there, else
-/// trains it and puts it there. A damaged file is trained anew, with a warning; a folder that
-/// cannot be written costs a warning.
+/// The library from `folder` if one for exactly these model bytes and parameters, by this build of
+/// the program, is there, else trains it and puts it there. A damaged file is trained anew, with a
+/// warning; a folder that cannot be written costs a warning.
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models,
                                                    const std::filesystem::path& folder);

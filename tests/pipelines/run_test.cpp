@@ -233,6 +233,22 @@ TEST_CASE("a stale, a damaged and an unwritable cache", "[run]") {
   CHECK(unwritable.output.find("not cached") != std::string::npos);
 }
 
+TEST_CASE("what another build trained is not taken from the cache", "[run]") {
+  const World& w = world();
+  const fs::path other = w.folder / "other-build";
+  fs::copy_file(POSEVOTE_BINARY, other);
+  std::ofstream(other, std::ios::binary | std::ios::app) << '\n';
+  const std::string run = "run demo --models " + w.models.string() + " " + w.scans_argument() +
+                          " --cache " + (w.folder / "shared-cache").string() + " --out ";
+  const auto libraries_after = [&](const std::string& out, const std::string& program) {
+    REQUIRE(run_posevote(w.folder, run + (w.folder / out).string(), program).status == 0);
+    return std::distance(fs::directory_iterator(w.folder / "shared-cache"), {});
+  };
+  CHECK(libraries_after("build1", POSEVOTE_BINARY) == 1);
+  CHECK(libraries_after("build2", POSEVOTE_BINARY) == 1);
+  CHECK(libraries_after("build3", other) == 2);
+}
+
 TEST_CASE("a trained library, and one that was trained otherwise", "[run]") {
   const World& w = world();
   const std::string library = (w.folder / "two.library").string();

@@ -18,11 +18,11 @@ struct CommandResult {
 };
 
 /// `arguments` as typed in a shell. The cache of libraries is `folder`/cache.
-inline CommandResult run_posevote(const TemporaryFolder& folder, const std::string& arguments) {
+inline CommandResult run_posevote(const TemporaryFolder& folder, const std::string& arguments,
+                                  const std::string& program = POSEVOTE_BINARY) {
   const std::filesystem::path log = folder / "log.txt";
-  const std::string command = "XDG_CACHE_HOME='" + (folder / "cache").string() + "' '" +
-                              std::string(POSEVOTE_BINARY) + "' " + arguments + " > '" +
-                              log.string() + "' 2>&1";
+  const std::string command = "XDG_CACHE_HOME='" + (folder / "cache").string() + "' '" + program +
+                              "' " + arguments + " > '" + log.string() + "' 2>&1";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(log)};
 }
