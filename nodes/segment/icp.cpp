@@ -20,11 +20,10 @@ constexpr double kFewUntil = 0.5;          // of the iterations, at most
 constexpr double kSlow = 0.1;  // of the final search radius: a shorter step calls for the many
 constexpr std::size_t kFewestPairs = 10;
 constexpr double kShrink = 0.85;  // of the search radius per iteration
-constexpr double kUnobserved =
-    1e-4;  // eigenvalue, as a share of the pairs' weight: not moved at all
-// Likewise: weakly held directions take several small steps as long as chance partners are many,
-// and get there once the search radius is the last.
-constexpr double kDamping = 0.01, kFinalDamping = 1e-3;
+// Eigenvalues, as shares of the pairs' weight. Directions below the first are not moved at all;
+// weakly held ones take several small steps as long as chance partners are many, and get there once
+// the search radius is the last.
+constexpr double kUnobserved = 1e-4, kDamping = 0.01, kFinalDamping = 1e-3;
 constexpr double kMaxTurn = 0.2;  // [rad] per iteration
 
 /// A posed model point on its scan point's tangent plane.

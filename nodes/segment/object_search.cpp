@@ -313,7 +313,7 @@ Fit ObjectSearch::measure(const Eigen::Isometry3d& T_scene_model, Eigen::Index s
 }
 
 Eigen::Vector3f ObjectSearch::center_of(const Candidate& candidate) const {
-  return (candidate.T_scene_model * model_.center.cast<double>()).cast<float>();
+  return posed_center(candidate.T_scene_model, model_.center).cast<float>();
 }
 
 bool ObjectSearch::is_clear(const Eigen::Vector3f& center) const {

@@ -76,4 +76,9 @@ Eigen::Isometry3d T_scene_model_of(const PoseMode& pose, const Eigen::Vector3f& 
   return T_scene_model;
 }
 
+Eigen::Vector3d posed_center(const Eigen::Isometry3d& T_scene_model,
+                             const Eigen::Vector3f& model_center) {
+  return T_scene_model * model_center.cast<double>();
+}
+
 }  // namespace posevote

@@ -26,4 +26,8 @@ double raw_density(const VoteDensity& density, const PoseMode& pose);
 /// x -> R (x - c) + t for the model's centre c: the translation is t - R c.
 Eigen::Isometry3d T_scene_model_of(const PoseMode& pose, const Eigen::Vector3f& model_center);
 
+/// And back: where the model's centre lands [m].
+Eigen::Vector3d posed_center(const Eigen::Isometry3d& T_scene_model,
+                             const Eigen::Vector3f& model_center);
+
 }  // namespace posevote

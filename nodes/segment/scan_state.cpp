@@ -2,6 +2,7 @@
 #include "nodes/segment/scan_state.hpp"
 
 #include "nodes/segment/explain_points.hpp"
+#include "nodes/segment/refine_mode.hpp"
 
 namespace posevote {
 namespace {
@@ -31,7 +32,7 @@ void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_mo
 }
 
 double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
-  return (T_scene_model * model.center.cast<double>() - cloud.viewpoint.cast<double>()).norm();
+  return (posed_center(T_scene_model, model.center) - cloud.viewpoint.cast<double>()).norm();
 }
 
 std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,

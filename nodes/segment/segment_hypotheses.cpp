@@ -9,13 +9,14 @@
 #include <algorithm>
 
 #include "nodes/data/hypotheses.hpp"
+#include "nodes/segment/refine_mode.hpp"
 #include "nodes/segment/segment_params.hpp"
 
 namespace posevote {
 namespace {
 
 PoseMode mode_of(const Hypothesis& hypothesis, const Model& model) {
-  return {(hypothesis.T_scene_model * model.center.cast<double>()).cast<float>(),
+  return {posed_center(hypothesis.T_scene_model, model.center).cast<float>(),
           Eigen::Quaternionf(hypothesis.T_scene_model.linear().cast<float>()), hypothesis.support};
 }
 

@@ -2,7 +2,6 @@
 #include "nodes/segment/usual_residual.hpp"
 
 #include <catch2/catch.hpp>
-#include <cmath>
 
 using namespace posevote;
 
