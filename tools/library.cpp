@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "graph/runner.hpp"
-#include "nodes/match/library_file.hpp"
+#include "nodes/library/library_file.hpp"
 
 namespace posevote {
 namespace {
@@ -50,18 +50,18 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
                                                    const fs::path& folder) {
   std::vector<fs::path> files{kThisProgram};
   for (const ModelFile& model : models) files.push_back(model.path);
-  const std::string key = hash_files(files, parameters_with_names(configuration, models));
+  const std::string key = library::hash_files(files, parameters_with_names(configuration, models));
   const fs::path file = folder / (key + ".library");
   if (fs::exists(file)) {
     std::string why_not;
-    if (auto library = load_library(file, key, why_not))
+    if (auto library = library::load_library(file, key, why_not))
       return std::make_shared<const ModelLibrary>(std::move(*library));
     spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
   }
   auto library = train(configuration, models);
   try {
     fs::create_directories(folder);
-    save_library(*library, file, key);
+    library::save_library(*library, file, key);
   } catch (const std::exception& error) {
     spdlog::warn("the library is not cached: {}", error.what());
   }
@@ -77,7 +77,7 @@ fs::path default_cache() {
 }
 
 std::string library_key(const Configuration& configuration) {
-  return hash_files({}, training_parameters(configuration.models));
+  return library::hash_files({}, training_parameters(configuration.models));
 }
 
 }  // namespace posevote

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "graph/runner.hpp"
-#include "nodes/match/descriptor_index.hpp"
-#include "nodes/match/library_file.hpp"
+#include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/library/library_file.hpp"
 #include "nodes/write/results_writer.hpp"
 #include "tools/commands.hpp"
 #include "tools/inputs.hpp"
@@ -54,7 +54,7 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
   if (!command.models.empty())
     throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
   std::string why_not;
-  auto library = load_library(command.library, library_key(configuration), why_not);
+  auto library = library::load_library(command.library, library_key(configuration), why_not);
   if (!library)
     throw std::invalid_argument(command.library + ": " + why_not + "; train it with this config");
   return std::make_shared<const ModelLibrary>(std::move(*library));
@@ -64,7 +64,7 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
 std::string describe_run(const RunCommand& command, const Configuration& configuration,
                          const ModelLibrary& library) {
   return "# posevote run --seed " + std::to_string(command.seed) + "; models " +
-         hash_library(library) + "\n" + effective_yaml(configuration);
+         library::hash_library(library) + "\n" + effective_yaml(configuration);
 }
 
 /// A resumed run must be the same run.
@@ -135,7 +135,7 @@ class Reporter {
       return;
     }
     const auto& detections = *static_cast<const Detections*>(result.result.get());
-    const FrameReport frame = frame_report(scene, result.spans);
+    const write::FrameReport frame = frame_report(scene, result.spans);
     writer_.write(frame, detections, nodes_json(trace_.times()));
     if (!command_.quiet) say(frame, detections);
   }
@@ -152,8 +152,9 @@ class Reporter {
     return names;
   }
 
-  FrameReport frame_report(const SceneEntry& scene, const std::vector<graph::Span>& spans) const {
-    FrameReport report{scene.number, scene.file, 0, {}, scene.name};
+  write::FrameReport frame_report(const SceneEntry& scene,
+                                  const std::vector<graph::Span>& spans) const {
+    write::FrameReport report{scene.number, scene.file, 0, {}, scene.name};
     double begin = 0;
     double end = 0;
     for (std::size_t i = 0; i < spans.size(); ++i) {
@@ -166,7 +167,7 @@ class Reporter {
     return report;
   }
 
-  void say(const FrameReport& frame, const Detections& detections) const {
+  void say(const write::FrameReport& frame, const Detections& detections) const {
     std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, scenes_.size(),
                 frame.file.path.filename().c_str(), detections.items.size(), frame.seconds);
     for (const Detection& item : detections.items)
@@ -179,7 +180,7 @@ class Reporter {
   const RunCommand& command_;
   const Configuration& configuration_;
   std::vector<SceneEntry> scenes_;
-  ResultsWriter writer_;
+  write::ResultsWriter writer_;
   graph::Trace trace_;
   std::size_t reported_ = 0;
 };

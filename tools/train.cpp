@@ -2,7 +2,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "nodes/match/library_file.hpp"
+#include "nodes/library/library_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
@@ -14,7 +14,7 @@ int train_command(const TrainCommand& command) {
   if (configuration.models.nodes.empty())
     throw std::invalid_argument(command.config + ": its pipeline has no `models` to train");
   const auto library = train(configuration, list_models(command.models));
-  save_library(*library, command.out, library_key(configuration));
+  library::save_library(*library, command.out, library_key(configuration));
   for (const auto& model : library->models)
     std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()
               << " points, " << model->features.points.rows() << " features, "

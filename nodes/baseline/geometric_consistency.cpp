@@ -10,9 +10,9 @@
 #include <pcl/recognition/cg/geometric_consistency.h>
 
 #include "graph/registry.hpp"
-#include "nodes/baseline/pcl_grouping.hpp"
+#include "nodes/adapters/pcl_grouping.hpp"
 
-namespace posevote {
+namespace posevote::baseline {
 namespace {
 
 struct Params {
@@ -22,7 +22,7 @@ struct Params {
 
 Hypotheses geometric_consistency(const Correspondences& matches, const FeatureSet& scene,
                                  const Scale& scale, const Params& params) {
-  const PclPairs pairs = make_pcl_pairs(matches, scene);
+  const adapters::PclPairs pairs = adapters::make_pcl_pairs(matches, scene);
   if (pairs.pairs->size() < 3) return {matches.model, {}};
   pcl::GeometricConsistencyGrouping<pcl::PointXYZ, pcl::PointXYZ> grouping;
   grouping.setGCSize(params.size * static_cast<double>(scale.resolution));
@@ -45,4 +45,4 @@ const auto registered =
                graph::at_least(3));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::baseline

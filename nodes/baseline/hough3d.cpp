@@ -13,10 +13,10 @@
 #include <cmath>
 
 #include "graph/registry.hpp"
-#include "nodes/baseline/pcl_grouping.hpp"
-#include "nodes/describe/pcl_surface.hpp"
+#include "nodes/adapters/pcl_grouping.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
 
-namespace posevote {
+namespace posevote::baseline {
 namespace {
 
 struct Params {
@@ -80,7 +80,7 @@ Hypotheses hough3d(const Correspondences& all, const FeatureSet& scene, const Cl
   const Frames scene_frames = frames_at(scene.points, scene_cloud, radius);
   const Correspondences matches = with_frames(all, model_frames, scene_frames);
   if (matches.scene_feature.size() < 3) return {all.model, {}};
-  const PclPairs pairs = make_pcl_pairs(matches, scene);
+  const adapters::PclPairs pairs = adapters::make_pcl_pairs(matches, scene);
   pcl::Hough3DGrouping<pcl::PointXYZ, pcl::PointXYZ> grouping;
   grouping.setHoughBinSize(params.bin * static_cast<double>(scale.resolution));
   grouping.setHoughThreshold(params.threshold);
@@ -110,4 +110,4 @@ const auto registered =
                "Neighbourhood of a local reference frame.", graph::greater_than(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::baseline

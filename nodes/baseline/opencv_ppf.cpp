@@ -18,13 +18,14 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
-#include "nodes/baseline/opencv_ppf_detector.hpp"
+#include "nodes/adapters/opencv_ppf_detector.hpp"
 #include "nodes/data/ppf_model.hpp"
 
-namespace posevote {
+namespace posevote::baseline {
 namespace {
 
-Hypotheses opencv_ppf(const PpfModel& object, const FeatureSet& scene, const PpfMatching& params) {
+Hypotheses opencv_ppf(const PpfModel& object, const FeatureSet& scene,
+                      const adapters::PpfMatching& params) {
   if (scene.normals.rows() != scene.points.rows())
     throw std::runtime_error("the scan has points without normals");
   return {object.model, object.detector->match(scene, params)};
@@ -36,12 +37,12 @@ const auto registered =
         .input("ppf_models")
         .input("scene_features")
         .output("hypotheses")
-        .param("reference_share", &PpfMatching::reference_share, "",
+        .param("reference_share", &adapters::PpfMatching::reference_share, "",
                "Share of the sampled scan points that vote.", graph::in_range(0.01, 1))
-        .param("cluster_distance", &PpfMatching::cluster_distance, "x diagonal",
+        .param("cluster_distance", &adapters::PpfMatching::cluster_distance, "x diagonal",
                "Poses nearer than this are one.", graph::at_least(0))
-        .param("cluster_angle", &PpfMatching::cluster_angle, "deg",
+        .param("cluster_angle", &adapters::PpfMatching::cluster_angle, "deg",
                "If their angles of rotation differ by less.", graph::at_least(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::baseline

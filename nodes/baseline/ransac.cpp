@@ -20,7 +20,7 @@
 #include "nodes/data/hypotheses.hpp"
 #include "nodes/data/splitmix64.hpp"
 
-namespace posevote {
+namespace posevote::baseline {
 namespace {
 
 struct Params {
@@ -130,4 +130,4 @@ const auto registered =
         .param("most", &Params::most, "", "Hypotheses to keep.", graph::at_least(1));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::baseline

@@ -13,25 +13,26 @@
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
-#include "nodes/baseline/opencv_ppf_detector.hpp"
+#include "nodes/adapters/opencv_ppf_detector.hpp"
 #include "nodes/data/ppf_model.hpp"
 
-namespace posevote {
+namespace posevote::baseline {
 namespace {
 
 std::shared_ptr<const PpfModel> train(const std::shared_ptr<const Model>& model,
-                                      const PpfTraining& params) {
+                                      const adapters::PpfTraining& params) {
   if (model->cloud.normals.rows() != model->cloud.points.rows())
     throw std::runtime_error("model " + model->name + " has points without normals");
   try {
     return std::make_shared<const PpfModel>(
-        PpfModel{model, std::make_shared<const PpfDetector>(model->cloud, params)});
+        PpfModel{model, std::make_shared<const adapters::PpfDetector>(model->cloud, params)});
   } catch (const std::exception& error) {
     throw std::runtime_error("model " + model->name + ": " + error.what());
   }
 }
 
-PerObject<PpfModel> train_opencv_ppf(const ModelLibrary& library, const PpfTraining& params) {
+PerObject<PpfModel> train_opencv_ppf(const ModelLibrary& library,
+                                     const adapters::PpfTraining& params) {
   PerObject<PpfModel> trained;
   trained.slots.resize(library.models.size());
   graph::parallel_for(trained.size(), 1,
@@ -44,12 +45,12 @@ const auto registered =
                          "Rival: hash tables of the models' point pairs (OpenCV).")
         .input("library")
         .output("ppf_models")
-        .param("sampling", &PpfTraining::sampling, "x diagonal", "Spacing of the model's points.",
-               graph::in_range(0.02, 0.5))
-        .param("distance", &PpfTraining::distance, "x diagonal", "Step of a pair's distance.",
-               graph::in_range(0.01, 0.5))
-        .param("angles", &PpfTraining::angles, "", "Steps of a pair's angles in a full turn.",
-               graph::in_range(4, 120));
+        .param("sampling", &adapters::PpfTraining::sampling, "x diagonal",
+               "Spacing of the model's points.", graph::in_range(0.02, 0.5))
+        .param("distance", &adapters::PpfTraining::distance, "x diagonal",
+               "Step of a pair's distance.", graph::in_range(0.01, 0.5))
+        .param("angles", &adapters::PpfTraining::angles, "",
+               "Steps of a pair's angles in a full turn.", graph::in_range(4, 120));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::baseline

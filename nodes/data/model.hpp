@@ -33,7 +33,9 @@ struct NearSymmetries {
   std::vector<NearSymmetry> items;
 };
 
-class DescriptorIndex;  // nodes/match/descriptor_index.hpp
+namespace descriptors {
+class DescriptorIndex;
+}
 
 /// Where a model's surfaces end (find_outline): a bit for each direction around a point.
 struct Outline {
@@ -58,7 +60,7 @@ struct Model {
 struct ModelLibrary {
   std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id
   Scale scale;
-  std::shared_ptr<const DescriptorIndex> index;
+  std::shared_ptr<const descriptors::DescriptorIndex> index;
 };
 
 /// The model of that obj_id, or null.

@@ -8,11 +8,13 @@
 
 namespace posevote {
 
-class PpfDetector;  // nodes/baseline/opencv_ppf_detector.hpp
+namespace adapters {
+class PpfDetector;
+}
 
 struct PpfModel {
   std::shared_ptr<const Model> model;
-  std::shared_ptr<const PpfDetector> detector;
+  std::shared_ptr<const adapters::PpfDetector> detector;
 };
 
 }  // namespace posevote

@@ -10,7 +10,9 @@
 
 namespace posevote {
 
-class PoseIndex;  // nodes/vote/pose_index.hpp
+namespace density {
+class PoseIndex;
+}
 
 /// Poses in SE(3), structure of arrays. Vote v belongs to correspondence v /
 /// votes_per_correspondence.
@@ -26,7 +28,8 @@ struct VoteSet {
 /// The kernel density of every vote of one VoteSet (paper, eq. 10).
 struct VoteDensity {
   std::vector<double> density;  ///< >= 1: a vote is its own neighbour; 0: not a finite pose
-  std::shared_ptr<const PoseIndex> index;  ///< of the same votes: neighbourhoods and subtraction
+  std::shared_ptr<const density::PoseIndex>
+      index;  ///< of the same votes: neighbourhoods and subtraction
 };
 
 }  // namespace posevote

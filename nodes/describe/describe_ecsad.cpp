@@ -26,10 +26,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "nodes/describe/feature_set.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/descriptors/feature_set.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -49,7 +49,7 @@ struct Sample {
   double height;    ///< angle over the tangent plane [rad]
 };
 
-std::vector<Sample> take_samples(const Support& support, std::uint32_t point) {
+std::vector<Sample> take_samples(const descriptors::Support& support, std::uint32_t point) {
   const Cloud& cloud = support.cloud();
   const Eigen::Vector3d center = cloud.points.row(point).transpose().cast<double>();
   const Eigen::Vector3d normal = cloud.normals.row(point).transpose().cast<double>().normalized();
@@ -127,7 +127,7 @@ class Cells {
 
 FeatureSet describe_ecsad(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                           const Params& params) {
-  const Support support(cloud, points, scale, params.radius);
+  const descriptors::Support support(cloud, points, scale, params.radius);
   const double shells_per_metre = kShells / static_cast<double>(support.radius());
   return support.describe_each(kLength, [&](std::uint32_t point, float* descriptor) {
     const std::vector<Sample> samples = take_samples(support, point);
@@ -142,9 +142,9 @@ FeatureSet describe_ecsad(const Cloud& cloud, const FeaturePoints& points, const
   });
 }
 
-const auto registered = register_descriptor<Params>(
+const auto registered = descriptors::register_descriptor<Params>(
     "describe_ecsad", describe_ecsad,
     "ECSAD: mean angles to the normal in cells around it (30 numbers).", 1);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -13,10 +13,10 @@
 #include <pcl/features/fpfh.h>
 
 #include "graph/parallel.hpp"
-#include "nodes/describe/pcl_surface.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -35,8 +35,8 @@ struct Neighbours {
 };
 
 /// Neighbours of a surface point, itself among them.
-Neighbours find_neighbours(const PclSupport& support, int row) {
-  const PclSurface& surface = support.surface();
+Neighbours find_neighbours(const adapters::PclSupport& support, int row) {
+  const adapters::PclSurface& surface = support.surface();
   Neighbours found;
   support.grid().for_each_within(
       surface.points->points[static_cast<std::size_t>(row)].getVector3fMap(), support.radius(),
@@ -54,8 +54,8 @@ struct Simplified {
   Eigen::MatrixXf angle[3];
 };
 
-Simplified simplified_histograms(const PclSupport& support) {
-  const PclSurface& surface = support.surface();
+Simplified simplified_histograms(const adapters::PclSupport& support) {
+  const adapters::PclSurface& surface = support.surface();
   const auto count = static_cast<Eigen::Index>(surface.points->size());
   Simplified histograms;
   for (Eigen::MatrixXf& angle : histograms.angle) angle.setZero(count, kBins);
@@ -74,9 +74,9 @@ Simplified simplified_histograms(const PclSupport& support) {
 
 FeatureSet describe_fpfh(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                          const Params& params) {
-  const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  const adapters::PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   const Simplified histograms = simplified_histograms(support);
-  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
+  return support.describe(kLength, 64, [&](const adapters::PclRows& rows, DescriptorMatrix& out) {
     Fpfh fpfh;
     Eigen::VectorXf histogram(kLength);
     for (std::size_t i = 0; i < rows->size(); ++i) {
@@ -88,9 +88,9 @@ FeatureSet describe_fpfh(const Cloud& cloud, const FeaturePoints& points, const 
   });
 }
 
-const auto registered =
-    register_descriptor<Params>("describe_fpfh", describe_fpfh,
-                                "FPFH: averaged histograms of point-pair angles (33 numbers).", 2);
+const auto registered = descriptors::register_descriptor<Params>(
+    "describe_fpfh", describe_fpfh, "FPFH: averaged histograms of point-pair angles (33 numbers).",
+    2);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -18,10 +18,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "nodes/describe/feature_set.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/descriptors/feature_set.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -58,14 +58,14 @@ void write(const Histogram& histogram, float* descriptor) {
 }
 
 /// Writes the descriptor of one point and returns how many neighbours it is made of.
-int describe(const Support& support, std::uint32_t point, float* descriptor) {
+int describe(const descriptors::Support& support, std::uint32_t point, float* descriptor) {
   const Cloud& cloud = support.cloud();
   const Eigen::Vector3f normal = cloud.normals.row(point).normalized();
   const float distance_bins = static_cast<float>(kDistances) / support.radius();
   Histogram histogram = Histogram::Zero();
   int count = 0;
   const auto add = [&](std::uint32_t neighbour, float squared) {
-    if (!(squared > 0) || !is_oriented(cloud, neighbour)) return;
+    if (!(squared > 0) || !descriptors::is_oriented(cloud, neighbour)) return;
     const Eigen::Vector3f other = cloud.normals.row(neighbour).normalized();
     const float angle = std::acos(std::clamp(normal.dot(other), -1.0F, 1.0F));
     const Shares far(std::sqrt(squared) * distance_bins, kDistances);
@@ -82,15 +82,15 @@ int describe(const Support& support, std::uint32_t point, float* descriptor) {
 
 FeatureSet describe_nd_histogram(const Cloud& cloud, const FeaturePoints& points,
                                  const Scale& scale, const Params& params) {
-  const Support support(cloud, points, scale, params.radius);
+  const descriptors::Support support(cloud, points, scale, params.radius);
   return support.describe_each(kDistances * kAngles, [&](std::uint32_t point, float* descriptor) {
     return describe(support, point, descriptor) >= params.min_neighbours;
   });
 }
 
-const auto registered = register_descriptor<Params>(
+const auto registered = descriptors::register_descriptor<Params>(
     "describe_nd_histogram", describe_nd_histogram,
     "NDHist: distance against the angle between normals (128 numbers).", 1);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -24,11 +24,11 @@
 #include <cmath>
 #include <vector>
 
-#include "nodes/describe/feature_set.hpp"
 #include "nodes/describe/point_pair_sums.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/descriptors/feature_set.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -45,14 +45,14 @@ constexpr int kLength = kAngles * kRows * kColumns;
 /// The normals of a cloud in the grid's order, as the kernel wants them.
 class GridNormals {
  public:
-  explicit GridNormals(const Support& support) : grid_(support.grid()) {
+  explicit GridNormals(const descriptors::Support& support) : grid_(support.grid()) {
     const Cloud& cloud = support.cloud();
     const auto count = static_cast<Eigen::Index>(grid_.size());
-    normals_.setZero(count + static_cast<Eigen::Index>(kGridPadding), 3);
+    normals_.setZero(count + static_cast<Eigen::Index>(geometry::kGridPadding), 3);
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::uint32_t point = grid_.indices()[static_cast<std::size_t>(i)];
       normals_.row(i) = cloud.normals.row(point);
-      if (!is_oriented(cloud, point)) normals_.row(i).setConstant(std::nanf(""));
+      if (!descriptors::is_oriented(cloud, point)) normals_.row(i).setConstant(std::nanf(""));
     }
   }
   OrientedColumns columns() const {
@@ -65,7 +65,7 @@ class GridNormals {
   }
 
  private:
-  const PointGrid& grid_;
+  const geometry::PointGrid& grid_;
   PointMatrix normals_;
 };
 
@@ -105,11 +105,11 @@ void write(const Histograms& histograms, float* descriptor) {
 }
 
 /// Writes the descriptor of one point and returns how many neighbours it is made of.
-int describe(const Support& support, const OrientedColumns& columns, std::uint32_t point,
-             float min_facing, float* descriptor) {
+int describe(const descriptors::Support& support, const OrientedColumns& columns,
+             std::uint32_t point, float min_facing, float* descriptor) {
   const Eigen::Vector3f center = support.cloud().points.row(point);
   const Eigen::Vector3f normal = support.cloud().normals.row(point);
-  thread_local std::vector<GridRun> around;
+  thread_local std::vector<geometry::GridRun> around;
   support.grid().find_runs(center, center, support.radius(), around);
   PointPairSums pairs{};
   const int count =
@@ -121,7 +121,7 @@ int describe(const Support& support, const OrientedColumns& columns, std::uint32
 
 FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                                 const Params& params) {
-  const Support support(cloud, points, scale, params.radius);
+  const descriptors::Support support(cloud, points, scale, params.radius);
   const GridNormals normals(support);
   const auto one = [&](std::uint32_t point, float* descriptor) {
     return describe(support, normals.columns(), point, static_cast<float>(params.min_facing),
@@ -131,11 +131,11 @@ FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points,
 }
 
 const auto registered =
-    register_descriptor<Params>(
+    descriptors::register_descriptor<Params>(
         "describe_point_pairs", describe_point_pairs,
         "Point-pair histograms: distance against four angles (240 numbers).", 1)
         .param("min_facing", &Params::min_facing, "cosine",
                "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -16,11 +16,11 @@
 //   describe_rops: {in: [cloud, points, scale], out: features, radius: 16}
 #include <pcl/features/rops_estimation.h>
 
+#include "nodes/adapters/pcl_surface.hpp"
 #include "nodes/describe/local_triangles.hpp"
-#include "nodes/describe/pcl_surface.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -35,7 +35,7 @@ constexpr float kLargestGap = 1.5F;
 FeatureSet describe_rops(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                          const Params& params) {
   using Statistics = pcl::Histogram<kLength>;
-  PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  adapters::PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   const auto corners = local_triangles(support, kLargestGap * support.resolution());
   std::vector<pcl::Vertices> triangles(corners.size());
   std::vector<char> touched(support.surface().points->size(), 0);
@@ -45,18 +45,18 @@ FeatureSet describe_rops(const Cloud& cloud, const FeaturePoints& points, const 
   }
   support.leave_out_unless(touched);
   // PCL copies and sorts all triangles anew in every chunk, so chunks are large.
-  return support.describe(kLength, 512, [&](const PclRows& rows, DescriptorMatrix& out) {
+  return support.describe(kLength, 512, [&](const adapters::PclRows& rows, DescriptorMatrix& out) {
     pcl::ROPSEstimation<pcl::PointXYZ, Statistics> estimation;
     estimation.setTriangles(triangles);
     estimation.setSupportRadius(support.radius());
-    run_estimation<Statistics>(
+    adapters::run_estimation<Statistics>(
         estimation, support, rows, [](const Statistics& rops) { return rops.histogram; }, out);
   });
 }
 
-const auto registered = register_descriptor<Params>(
+const auto registered = descriptors::register_descriptor<Params>(
     "describe_rops", describe_rops,
     "RoPS: statistics of rotated projections in a local frame (135 numbers).", 3);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -8,10 +8,10 @@
 //   describe_shot: {in: [cloud, points, scale], out: features, radius: 20}
 #include <pcl/features/shot.h>
 
-#include "nodes/describe/pcl_surface.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -23,20 +23,20 @@ constexpr int kLength = 352;
 
 FeatureSet describe_shot(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                          const Params& params) {
-  PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  adapters::PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   support.find_frames();
-  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
+  return support.describe(kLength, 64, [&](const adapters::PclRows& rows, DescriptorMatrix& out) {
     pcl::SHOTEstimation<pcl::PointXYZ, pcl::Normal, pcl::SHOT352> estimation;
     estimation.setInputNormals(support.surface().normals);
     estimation.setInputReferenceFrames(support.frames(rows));
-    run_estimation<pcl::SHOT352>(
+    adapters::run_estimation<pcl::SHOT352>(
         estimation, support, rows, [](const pcl::SHOT352& shot) { return shot.descriptor; }, out);
   });
 }
 
-const auto registered =
-    register_descriptor<Params>("describe_shot", describe_shot,
-                                "SHOT: histograms of normals in a local frame (352 numbers).", 5);
+const auto registered = descriptors::register_descriptor<Params>(
+    "describe_shot", describe_shot, "SHOT: histograms of normals in a local frame (352 numbers).",
+    5);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -16,10 +16,10 @@
 //   describe_spin_images: {in: [cloud, points, scale], out: features, radius: 22}
 #include <pcl/features/spin_image.h>
 
-#include "nodes/describe/pcl_surface.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -34,22 +34,22 @@ constexpr int kLength = (kWidth + 1) * (2 * kWidth + 1);
 FeatureSet describe_spin_images(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                                 const Params& params) {
   using Image = pcl::Histogram<kLength>;
-  const PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
-  return support.describe(kLength, 64, [&](const PclRows& rows, DescriptorMatrix& out) {
+  const adapters::PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  return support.describe(kLength, 64, [&](const adapters::PclRows& rows, DescriptorMatrix& out) {
     pcl::SpinImageEstimation<pcl::PointXYZ, pcl::Normal, Image> estimation(kWidth,
                                                                            params.min_facing);
     estimation.setInputNormals(support.surface().normals);
-    run_estimation<Image>(
+    adapters::run_estimation<Image>(
         estimation, support, rows, [](const Image& image) { return image.histogram; }, out);
   });
 }
 
 const auto registered =
-    register_descriptor<Params>(
+    descriptors::register_descriptor<Params>(
         "describe_spin_images", describe_spin_images,
         "Spin images: distance from the normal against height (153 numbers).", 1)
         .param("min_facing", &Params::min_facing, "cosine",
                "Least |n . n'| of a neighbour; 0 takes all.", graph::in_range(0, 1));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

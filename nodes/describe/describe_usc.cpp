@@ -17,10 +17,10 @@
 
 #include <limits>
 
-#include "nodes/describe/pcl_surface.hpp"
-#include "nodes/describe/register_descriptor.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
+#include "nodes/descriptors/register_descriptor.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Params {
@@ -45,23 +45,23 @@ class ShapeContext : public pcl::UniqueShapeContext<pcl::PointXYZ> {
 
 FeatureSet describe_usc(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                         const Params& params) {
-  PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
+  adapters::PclSupport support(cloud, points, scale, params.radius, params.min_neighbours);
   support.find_frames();
   const auto radius = static_cast<double>(support.radius());
-  return support.describe(kLength, 32, [&](const PclRows& rows, DescriptorMatrix& out) {
+  return support.describe(kLength, 32, [&](const adapters::PclRows& rows, DescriptorMatrix& out) {
     ShapeContext estimation;
     estimation.setMinimalRadius(radius / 10);
     estimation.setPointDensityRadius(radius / 5);
     estimation.setLocalRadius(radius);
     estimation.setInputReferenceFrames(support.frames(rows));
-    run_estimation<pcl::UniqueShapeContext1960>(
+    adapters::run_estimation<pcl::UniqueShapeContext1960>(
         estimation, support, rows,
         [](const pcl::UniqueShapeContext1960& context) { return context.descriptor; }, out);
   });
 }
 
-const auto registered = register_descriptor<Params>(
+const auto registered = descriptors::register_descriptor<Params>(
     "describe_usc", describe_usc, "USC: shape contexts in a local frame (1960 numbers).", 5);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::describe

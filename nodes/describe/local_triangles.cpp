@@ -9,7 +9,7 @@
 
 #include "graph/parallel.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 namespace {
 
 struct Neighbour2d {
@@ -17,8 +17,9 @@ struct Neighbour2d {
   Eigen::Vector2d at;  ///< in the tangent plane of the point in question
 };
 
-std::vector<Neighbour2d> project_neighbours(const PclSupport& support, int row, float reach) {
-  const PclSurface& surface = support.surface();
+std::vector<Neighbour2d> project_neighbours(const adapters::PclSupport& support, int row,
+                                            float reach) {
+  const adapters::PclSurface& surface = support.surface();
   const auto point_of = [&](int i) {
     return (*surface.points)[static_cast<std::size_t>(i)].getVector3fMap();
   };
@@ -52,7 +53,8 @@ bool is_delaunay(const std::vector<Neighbour2d>& near, const Neighbour2d& a, con
 
 }  // namespace
 
-std::vector<std::array<int, 3>> local_triangles(const PclSupport& support, float circumradius) {
+std::vector<std::array<int, 3>> local_triangles(const adapters::PclSupport& support,
+                                                float circumradius) {
   std::vector<std::vector<std::array<int, 3>>> stars(support.surface().points->size());
   graph::parallel_for(stars.size(), 256, [&](std::size_t i) {
     // A circle through the point, no larger than that, lies within twice its radius.
@@ -75,4 +77,4 @@ std::vector<std::array<int, 3>> local_triangles(const PclSupport& support, float
   return triangles;
 }
 
-}  // namespace posevote
+}  // namespace posevote::describe

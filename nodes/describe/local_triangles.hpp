@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "nodes/describe/pcl_surface.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 
 /// Triangles between neighbouring points of a surface, as indices into it, each once and sorted.
 ///
@@ -16,6 +16,7 @@ namespace posevote {
 /// no manifold mesh; but it covers the surface, does not depend on the order of points (but for
 /// ties), and is found in parallel. Neighbours whose normal is turned by more than 60 deg count as
 /// another surface.
-std::vector<std::array<int, 3>> local_triangles(const PclSupport& support, float circumradius);
+std::vector<std::array<int, 3>> local_triangles(const adapters::PclSupport& support,
+                                                float circumradius);
 
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -13,15 +13,15 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace posevote::HWY_NAMESPACE {
+namespace posevote::describe::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, kGridPadding>;
+using Floats = hn::CappedTag<float, geometry::kGridPadding>;
 using Ints = hn::RebindToSigned<Floats>;
 using F = hn::Vec<Floats>;
 
-constexpr std::size_t kBlock = 64;                    // pairs that are weighed together
-constexpr std::size_t kRoom = kBlock + kGridPadding;  // Compress may write a whole vector
+constexpr std::size_t kBlock = 64;                              // pairs that are weighed together
+constexpr std::size_t kRoom = kBlock + geometry::kGridPadding;  // Compress may write a whole vector
 
 /// The angle of a cosine, over pi: Abramowitz and Stegun 4.4.45, at most 7e-5 rad off. The cosine
 /// may have rounded beyond one.
@@ -163,7 +163,7 @@ class Pairs {
   HWY_ALIGN float weight_[PointPairSums::kAngles][4 * kRoom];
 };
 
-int add_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run_count,
+int add_pairs(const OrientedColumns& cloud, const geometry::GridRun* runs, std::size_t run_count,
               const PairSource& source, PointPairSums& sums) {
   const Floats d;
   Pairs pairs(source, sums);
@@ -173,18 +173,18 @@ int add_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run
   return pairs.finish();
 }
 
-}  // namespace posevote::HWY_NAMESPACE
+}  // namespace posevote::describe::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace posevote {
+namespace posevote::describe {
 
 HWY_EXPORT(add_pairs);
 
-int add_point_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run_count,
-                    const PairSource& source, PointPairSums& pairs) {
+int add_point_pairs(const OrientedColumns& cloud, const geometry::GridRun* runs,
+                    std::size_t run_count, const PairSource& source, PointPairSums& pairs) {
   return HWY_DYNAMIC_DISPATCH(add_pairs)(cloud, runs, run_count, source, pairs);
 }
 
-}  // namespace posevote
+}  // namespace posevote::describe
 #endif

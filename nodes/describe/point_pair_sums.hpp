@@ -7,9 +7,9 @@
 
 #include <cstddef>
 
-#include "nodes/prepare/grid_run.hpp"
+#include "nodes/geometry/grid_run.hpp"
 
-namespace posevote {
+namespace posevote::describe {
 
 /// Points and normals as six arrays in the order of a grid, with kGridPadding floats behind the
 /// last that may be read. A normal that is not a number: the point is no neighbour.
@@ -39,7 +39,7 @@ struct PairSource {
 
 /// Adds the pairs with all neighbours in the runs, except those where the point itself lies, to
 /// `pairs`. Returns how many.
-int add_point_pairs(const OrientedColumns& cloud, const GridRun* runs, std::size_t run_count,
-                    const PairSource& source, PointPairSums& pairs);
+int add_point_pairs(const OrientedColumns& cloud, const geometry::GridRun* runs,
+                    std::size_t run_count, const PairSource& source, PointPairSums& pairs);
 
-}  // namespace posevote
+}  // namespace posevote::describe

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 32;
@@ -71,4 +71,4 @@ bool is_padding(std::string_view rest) {
   return rest.find_first_not_of(kPadding) == std::string_view::npos;
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace posevote {
+namespace posevote::load {
 
 struct FileBytes {
   std::unique_ptr<char[]> data;
@@ -40,4 +40,4 @@ T load_bytes(const char* bytes, std::endian order = std::endian::little) {
 /// Whether what follows the data is mere padding: blanks, line ends, zeros.
 bool is_padding(std::string_view rest);
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -13,11 +13,11 @@
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
-#include "nodes/data/extent.hpp"
 #include "nodes/data/files.hpp"
+#include "nodes/geometry/extent.hpp"
 #include "nodes/load/read_cloud.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 struct Params {
@@ -26,7 +26,7 @@ struct Params {
 
 Cloud load_model(const std::filesystem::path& file, double metres) {
   Cloud model = read_cloud(file, metres);
-  model_diagonal(model.points);  // here a model without one can be named
+  geometry::model_diagonal(model.points);  // here a model without one can be named
   return model;
 }
 
@@ -58,4 +58,4 @@ const auto registered =
                graph::one_of({"mm", "m"}));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::load

@@ -15,7 +15,7 @@
 #include "nodes/load/read_cloud.hpp"
 #include "nodes/load/read_depth.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 struct Params {
@@ -58,4 +58,4 @@ const auto registered =
         .check(check);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::load

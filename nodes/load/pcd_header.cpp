@@ -6,7 +6,7 @@
 
 #include "nodes/load/file_bytes.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 /// Real files have some ten, and names are searched.
@@ -144,4 +144,4 @@ PcdHeader read_pcd_header(TextScanner& in) {
   in.fail("the file ends within the header: no DATA");
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -11,7 +11,7 @@
 #include "nodes/load/raw_mesh.hpp"
 #include "nodes/load/text_scanner.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 enum class PcdData { kAscii, kBinary, kBinaryCompressed };
 
@@ -40,4 +40,4 @@ struct PcdHeader {
 /// the lines contradict each other. The counts are not yet compared with the size of the file.
 PcdHeader read_pcd_header(TextScanner& in);
 
-}  // namespace posevote
+}  // namespace posevote::load

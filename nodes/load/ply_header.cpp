@@ -10,7 +10,7 @@
 #include "nodes/load/file_bytes.hpp"
 #include "nodes/load/raw_mesh.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 /// Of elements, and of properties of an element: real files have some ten, and names are searched.
@@ -141,4 +141,4 @@ void check_ply_room(const PlyHeader& header, std::uint64_t room) {
   }
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -10,7 +10,7 @@
 
 #include "nodes/load/text_scanner.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
@@ -49,4 +49,4 @@ PlyHeader read_ply_header(TextScanner& in);
 /// Throws std::runtime_error where the elements cannot fit into the `room` bytes after the header.
 void check_ply_room(const PlyHeader& header, std::uint64_t room);
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -15,7 +15,7 @@
 #include "nodes/load/ply_header.hpp"
 #include "nodes/load/text_scanner.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 /// "vertex 3 of 100", counted from 1 as a reader of the header would.
 inline std::string row_name(const PlyElement& element, std::uint64_t row) {
@@ -121,4 +121,4 @@ class BinaryRows {
   std::uint64_t row_ = 0;
 };
 
-}  // namespace posevote
+}  // namespace posevote::load

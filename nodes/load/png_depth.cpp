@@ -14,7 +14,7 @@
 
 #include "nodes/load/file_bytes.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 constexpr png_uint_32 kMostPixelsAside = 8192;
@@ -122,4 +122,4 @@ DepthImage decode_depth_png(std::string_view bytes) {
   return image;
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace posevote {
+namespace posevote::load {
 
 struct DepthImage {
   std::size_t width = 0;
@@ -17,4 +17,4 @@ struct DepthImage {
 /// Decodes a 16-bit grey PNG. Throws std::runtime_error for anything else, and for damaged files.
 DepthImage decode_depth_png(std::string_view bytes);
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
@@ -98,4 +98,4 @@ std::string index_problem(double index, std::uint64_t vertices) {
          ", expected 0 to " + std::to_string(vertices) + " exclusive";
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

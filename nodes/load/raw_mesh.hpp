@@ -12,7 +12,7 @@
 
 #include "nodes/data/cloud.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 using Triple = std::array<double, 3>;
 
@@ -46,4 +46,4 @@ RawMesh read_obj(std::string_view bytes);
 RawMesh read_stl(std::string_view bytes);
 RawMesh read_off(std::string_view bytes);
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -9,7 +9,7 @@
 #include "nodes/load/file_bytes.hpp"
 #include "nodes/load/raw_mesh.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 Cloud read_cloud(const std::filesystem::path& path, double metres_per_unit) {
   static const std::map<std::string, RawMesh (*)(std::string_view)> kReaders{{".ply", read_ply},
@@ -33,4 +33,4 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -6,7 +6,7 @@
 
 #include "nodes/data/cloud.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 /// Reads a point cloud or mesh; the extension says how: .ply .pcd .obj .stl .off, in any case.
 /// Points that are NaN or infinite are removed and counted in Cloud::dropped, with the faces that
@@ -20,4 +20,4 @@ double metres_per(const std::string& unit);
 /// The extension in lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& path);
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -8,7 +8,7 @@
 #include "nodes/load/file_bytes.hpp"
 #include "nodes/load/png_depth.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 void check_camera(const Camera& camera) {
@@ -75,4 +75,4 @@ Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const 
   return cloud;
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

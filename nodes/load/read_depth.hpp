@@ -6,7 +6,7 @@
 #include "nodes/data/cloud.hpp"
 #include "nodes/data/files.hpp"
 
-namespace posevote {
+namespace posevote::load {
 
 /// Which depths to take [m]; far = 0: no limit.
 struct DepthRange {
@@ -19,4 +19,4 @@ struct DepthRange {
 /// measurement. Throws std::runtime_error that says what is wrong, but does not repeat the path.
 Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range);
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -12,7 +12,7 @@
 #include "nodes/load/raw_mesh.hpp"
 #include "nodes/load/text_scanner.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 /// Keywords of the format that say nothing about points and triangles.
@@ -122,4 +122,4 @@ class ObjReader {
 
 RawMesh read_obj(std::string_view bytes) { return ObjReader(bytes).read(); }
 
-}  // namespace posevote
+}  // namespace posevote::load

@@ -10,7 +10,7 @@
 #include "nodes/load/raw_mesh.hpp"
 #include "nodes/load/text_scanner.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 struct OffHeader {
@@ -100,4 +100,4 @@ RawMesh read_off(std::string_view bytes) {
   return mesh;
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

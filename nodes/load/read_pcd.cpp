@@ -15,7 +15,7 @@
 #include "nodes/load/pcd_header.hpp"
 #include "nodes/load/raw_mesh.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 /// One of x, y, z, normal_x, normal_y, normal_z: where its values are.
@@ -165,4 +165,4 @@ RawMesh read_pcd(std::string_view bytes) {
   return mesh;
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

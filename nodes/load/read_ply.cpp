@@ -17,7 +17,7 @@
 #include "nodes/load/ply_rows.hpp"
 #include "nodes/load/raw_mesh.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 template <class Rows>
@@ -155,4 +155,4 @@ RawMesh read_ply(std::string_view bytes) {
   return read_body(rows, header, vertex->count);
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

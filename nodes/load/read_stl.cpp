@@ -14,7 +14,7 @@
 #include "nodes/load/raw_mesh.hpp"
 #include "nodes/load/text_scanner.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 80 + sizeof(std::uint32_t);
@@ -132,4 +132,4 @@ RawMesh read_stl(std::string_view bytes) {
                            " bytes, the file has " + std::to_string(bytes.size()));
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

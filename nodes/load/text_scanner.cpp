@@ -9,7 +9,7 @@
 
 #include "nodes/load/file_bytes.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -109,4 +109,4 @@ std::uint64_t read_count(TextScanner& in, const std::string& what) {
   return static_cast<std::uint64_t>(*count);
 }
 
-}  // namespace posevote
+}  // namespace posevote::load

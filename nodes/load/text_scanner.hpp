@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace posevote {
+namespace posevote::load {
 
 class TextScanner {
  public:
@@ -48,4 +48,4 @@ std::optional<std::int64_t> to_integer(std::string_view word);
 /// The next word of the line as a count, 0 to 2^32. `what` is for the complaint: "vertices".
 std::uint64_t read_count(TextScanner& in, const std::string& what);
 
-}  // namespace posevote
+}  // namespace posevote::load

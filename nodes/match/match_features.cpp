@@ -19,9 +19,9 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
-#include "nodes/match/descriptor_index.hpp"
+#include "nodes/descriptors/descriptor_index.hpp"
 
-namespace posevote {
+namespace posevote::match {
 namespace {
 
 struct Params {
@@ -40,13 +40,13 @@ std::vector<std::uint32_t> first_rows(const ModelLibrary& library) {
 PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLibrary& library,
                                           const Params& params) {
   if (!library.index) throw std::runtime_error("the model library has no index");
-  const std::vector<TwoNearest> nearest =
+  const std::vector<descriptors::TwoNearest> nearest =
       library.index->nearest_two(scene.descriptors, scene.blocks);
   const std::vector<std::uint32_t> first = first_rows(library);
   std::vector<Correspondences> matches(library.models.size());
   for (std::size_t i = 0; i < matches.size(); ++i) matches[i].model = library.models[i];
   for (std::size_t feature = 0; feature < nearest.size(); ++feature) {
-    const float ratio = squared_ratio(nearest[feature]);
+    const float ratio = descriptors::squared_ratio(nearest[feature]);
     const float distance = std::sqrt(nearest[feature].squared[0]);
     if (ratio > static_cast<float>(params.max_ratio)) continue;
     if (params.max_distance > 0 && distance > static_cast<float>(params.max_distance)) continue;
@@ -77,4 +77,4 @@ const auto registered =
                "Largest distance of a match; 0 keeps all.", graph::at_least(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::match

@@ -16,10 +16,10 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
-#include "nodes/prepare/normals.hpp"
-#include "nodes/prepare/voxels.hpp"
+#include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/voxels.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 namespace {
 
 struct Params {
@@ -68,16 +68,16 @@ std::array<Group, 2> group(const Cloud& cloud, std::span<const std::uint32_t> me
 }
 
 Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& params) {
-  require_normals(cloud);
-  const std::vector<std::uint32_t> usable = oriented_rows(cloud.points, cloud.normals);
-  const Voxels voxels =
-      group_by_voxel(cloud.points, usable, static_cast<float>(params.leaf_size) * scale.resolution);
+  geometry::require_normals(cloud);
+  const std::vector<std::uint32_t> usable = geometry::oriented_rows(cloud.points, cloud.normals);
+  const geometry::Voxels voxels = geometry::group_by_voxel(
+      cloud.points, usable, static_cast<float>(params.leaf_size) * scale.resolution);
   std::vector<Group> groups;
   groups.reserve(voxels.size());
   for (std::size_t v = 0; v < voxels.size(); ++v)
     for (const Group& side : group(cloud, voxels[v]))
       if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
-  Cloud out = without_points(cloud);
+  Cloud out = geometry::without_points(cloud);
   out.dropped += static_cast<std::size_t>(cloud.points.rows()) - usable.size();
   out.points.resize(static_cast<Eigen::Index>(groups.size()), 3);
   out.normals.resize(out.points.rows(), 3);
@@ -99,4 +99,4 @@ const auto registered =
                graph::greater_than(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::prepare

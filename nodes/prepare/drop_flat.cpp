@@ -14,11 +14,11 @@
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
-#include "nodes/prepare/grid.hpp"
-#include "nodes/prepare/spread.hpp"
-#include "nodes/prepare/voxels.hpp"
+#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/spread.hpp"
+#include "nodes/geometry/voxels.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 namespace {
 
 struct Params {
@@ -32,7 +32,7 @@ struct Moments {
   double count = 0;
 };
 
-std::vector<Moments> moments_of(const Cloud& cloud, const Voxels& voxels) {
+std::vector<Moments> moments_of(const Cloud& cloud, const geometry::Voxels& voxels) {
   std::vector<Moments> moments(voxels.size());
   graph::parallel_for(voxels.size(), 256, [&](std::size_t v) {
     for (const std::uint32_t i : voxels[v]) {
@@ -47,10 +47,10 @@ std::vector<Moments> moments_of(const Cloud& cloud, const Voxels& voxels) {
 
 /// The relief around each point of the cloud: that of its cube and the cubes around.
 std::vector<float> relief_around(const Cloud& cloud, float radius) {
-  const Voxels voxels = group_by_voxel(cloud.points, radius / 2);
+  const geometry::Voxels voxels = geometry::group_by_voxel(cloud.points, radius / 2);
   const std::vector<Moments> moments = moments_of(cloud, voxels);
   const PointMatrix centroids = voxels.centroids(cloud.points);
-  const PointGrid grid(centroids, radius);
+  const geometry::PointGrid grid(centroids, radius);
   std::vector<float> relief(static_cast<std::size_t>(cloud.points.rows()), 0);
   graph::parallel_for(voxels.size(), 64, [&](std::size_t v) {
     Moments sum;
@@ -59,7 +59,8 @@ std::vector<float> relief_around(const Cloud& cloud, float radius) {
                            sum.squares += moments[near].squares;
                            sum.count += moments[near].count;
                          });
-    const auto here = sum.count > 0 ? static_cast<float>(relief_of(sum.squares / sum.count)) : 0.0F;
+    const auto here =
+        sum.count > 0 ? static_cast<float>(geometry::relief_of(sum.squares / sum.count)) : 0.0F;
     for (const std::uint32_t i : voxels[v]) relief[i] = here;
   });
   return relief;
@@ -89,4 +90,4 @@ const auto registered =
                "The ground around a point whose normals are compared.", graph::greater_than(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::prepare

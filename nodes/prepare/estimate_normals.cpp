@@ -20,11 +20,11 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
+#include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/plane_normals.hpp"
 #include "nodes/prepare/image_normals.hpp"
-#include "nodes/prepare/normals.hpp"
-#include "nodes/prepare/plane_normals.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 namespace {
 
 struct Params {
@@ -59,7 +59,7 @@ PointMatrix file_normals(const Cloud& scan) {
     throw std::runtime_error("it has " + std::to_string(scan.normals.rows()) + " normals for " +
                              std::to_string(scan.points.rows()) + " points");
   PointMatrix normals = scan.normals;
-  normalise(normals);
+  geometry::normalise(normals);
   return normals;
 }
 
@@ -67,7 +67,7 @@ PointMatrix neighbour_planes(const Cloud& scan, const Scale& scale, const Params
   const float smallest = static_cast<float>(params.radius) * scale.resolution;
   if (auto normals = image_normals(scan, smallest, kSpacings, params.min_neighbours))
     return *std::move(normals);
-  const auto planes = suitable_planes(scan.points, smallest, kSpacings);
+  const auto planes = geometry::suitable_planes(scan.points, smallest, kSpacings);
   return planes ? planes->normals(params.min_neighbours) : PointMatrix::Zero(scan.points.rows(), 3);
 }
 
@@ -87,13 +87,13 @@ Cloud estimate_normals(const Cloud& scan, const Scale& scale, const Params& para
     PointMatrix planes = PointMatrix::Zero(scan.points.rows(), 3);
     if (uses("pca")) planes = neighbour_planes(scan, scale, params);
     if (uses("faces") && scan.faces.rows() > 0) {
-      const PointMatrix by_faces = face_normals(scan.points, scan.faces);
+      const PointMatrix by_faces = geometry::face_normals(scan.points, scan.faces);
       if (agree(by_faces, planes)) fill(normals, by_faces);
     }
     fill(normals, planes);
   }
-  turn_toward(scan.viewpoint, scan.points, normals);
-  return keep_oriented(scan, normals);
+  geometry::turn_toward(scan.viewpoint, scan.points, normals);
+  return geometry::keep_oriented(scan, normals);
 }
 
 const auto registered =
@@ -114,4 +114,4 @@ const auto registered =
                "Fewer points in a neighbourhood give no normal (pca).", graph::in_range(3, 1000));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::prepare

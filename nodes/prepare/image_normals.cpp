@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "graph/parallel.hpp"
-#include "nodes/prepare/cells.hpp"
+#include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/plane_fit.hpp"
 #include "nodes/prepare/image_tile.hpp"
-#include "nodes/prepare/plane_fit.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 namespace {
 
 constexpr float kNowhere = 1e9F;       // no measurement; finite, so that times 0 it is 0
@@ -38,9 +38,9 @@ class PixelPlanes {
         low_(scan.image.min()),
         per_ray_(scan.pixels.cast<float>().cwiseQuotient(scan.image.sizes())) {
     const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    for (auto* column : {&x_, &y_, &z_}) column->assign(size + kGridPadding, kNowhere);
-    weights_.assign(size + kGridPadding, 0);
-    for (const std::uint32_t i : finite_rows(scan.points)) put(i, scan.points.row(i));
+    for (auto* column : {&x_, &y_, &z_}) column->assign(size + geometry::kGridPadding, kNowhere);
+    weights_.assign(size + geometry::kGridPadding, 0);
+    for (const std::uint32_t i : geometry::finite_rows(scan.points)) put(i, scan.points.row(i));
     // So that the order of the points plays no part in a sample.
     const auto by_pixel = [](const Place& a, const Place& b) { return a.pixel < b.pixel; };
     if (!std::is_sorted(places_.begin(), places_.end(), by_pixel))
@@ -55,7 +55,7 @@ class PixelPlanes {
   /// The typical distance between points side by side [m].
   float spacing() const {
     std::vector<float> distances;
-    for (const std::size_t i : sample_of(places_.size())) {
+    for (const std::size_t i : geometry::sample_of(places_.size())) {
       const std::uint32_t pixel = places_[i].pixel;
       float nearest = kNowhere;
       for (const std::uint32_t step : {1U, static_cast<std::uint32_t>(width_)}) {
@@ -64,13 +64,13 @@ class PixelPlanes {
       }
       if (nearest < kNowhere / 2) distances.push_back(nearest);
     }
-    return upper_median(std::move(distances));
+    return geometry::upper_median(std::move(distances));
   }
 
   /// Pixels that a plane looks at, on average.
   float window_size(float radius) const {
-    const std::vector<std::size_t> sample = sample_of(places_.size());
-    std::vector<GridRun> rows;
+    const std::vector<std::size_t> sample = geometry::sample_of(places_.size());
+    std::vector<geometry::GridRun> rows;
     double sum = 0;
     for (const std::size_t i : sample) {
       find_window(point(places_[i].pixel), radius, rows);
@@ -79,12 +79,13 @@ class PixelPlanes {
     return static_cast<float>(sum / static_cast<double>(sample.size()));
   }
 
-  Plane fit(const Eigen::Vector3f& place, float radius, int min_neighbours) const {
-    thread_local std::vector<GridRun> around;
+  geometry::Plane fit(const Eigen::Vector3f& place, float radius, int min_neighbours) const {
+    thread_local std::vector<geometry::GridRun> around;
     find_window(place, radius, around);
-    return plane_of(plane_moments({x_.data(), y_.data(), z_.data(), weights_.data()}, around.data(),
-                                  around.size(), place.data(), radius),
-                    radius, min_neighbours);
+    return geometry::plane_of(
+        geometry::plane_moments({x_.data(), y_.data(), z_.data(), weights_.data()}, around.data(),
+                                around.size(), place.data(), radius),
+        radius, min_neighbours);
   }
 
   Eigen::Vector3f point(std::uint32_t pixel) const { return {x_[pixel], y_[pixel], z_[pixel]}; }
@@ -142,7 +143,8 @@ class PixelPlanes {
 
   /// The pixels that a ball may cover. With d in the ball and r the ray x / z, the pixel moves by
   /// (d_x - r d_z) / (z + d_z), which is at most radius sqrt(1 + r^2) / (z - radius).
-  void find_window(const Eigen::Vector3f& place, float radius, std::vector<GridRun>& rows) const {
+  void find_window(const Eigen::Vector3f& place, float radius,
+                   std::vector<geometry::GridRun>& rows) const {
     rows.clear();
     const Eigen::Vector3f ray = place - viewpoint_;
     const Eigen::Vector2f r = ray.head<2>() / ray.z();
@@ -246,9 +248,9 @@ std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, floa
     return radius <= kMostSpacings * spacing && planes.window_size(radius) <= kMostPixels;
   };
   const auto& places = planes.places();
-  const float radius = suitable_radius(start, [&](float tried) {
+  const float radius = geometry::suitable_radius(start, [&](float tried) {
     if (!is_quick(tried)) return 0.0F;  // no need to go on
-    return typical_thickness(places.size(), [&](std::size_t i, int least) {
+    return geometry::typical_thickness(places.size(), [&](std::size_t i, int least) {
       return planes.fit(planes.point(places[i].pixel), tried, least);
     });
   });
@@ -259,4 +261,4 @@ std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, floa
   return normals;
 }
 
-}  // namespace posevote
+}  // namespace posevote::prepare

@@ -7,7 +7,7 @@
 
 #include "nodes/data/cloud.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 
 /// The normal at every point of a depth image, by planes of a radius as suitable_planes would
 /// choose it; sign arbitrary, (0, 0, 0) where there is none. Blocks of 2 x 2 pixels share a plane
@@ -17,4 +17,4 @@ namespace posevote {
 std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, float spacings,
                                          int min_neighbours);
 
-}  // namespace posevote
+}  // namespace posevote::prepare

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace posevote {
+namespace posevote::prepare {
 
 /// The ground between four points with normals: upper left and right, lower left and right.
 class Tile {
@@ -58,4 +58,4 @@ class Tile {
   float radius_;
 };
 
-}  // namespace posevote
+}  // namespace posevote::prepare

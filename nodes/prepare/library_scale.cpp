@@ -5,7 +5,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 namespace {
 
 struct Params {};
@@ -18,4 +18,4 @@ const auto registered = graph::register_node("library_scale", library_scale,
                             .output("scale");
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::prepare

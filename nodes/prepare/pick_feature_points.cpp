@@ -13,9 +13,9 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
-#include "nodes/prepare/voxels.hpp"
+#include "nodes/geometry/voxels.hpp"
 
-namespace posevote {
+namespace posevote::prepare {
 namespace {
 
 struct Params {
@@ -23,7 +23,8 @@ struct Params {
   int max_points = 10000;
 };
 
-std::uint32_t most_central(const PointMatrix& points, const Voxels& voxels, std::size_t voxel) {
+std::uint32_t most_central(const PointMatrix& points, const geometry::Voxels& voxels,
+                           std::size_t voxel) {
   const Eigen::RowVector3d centroid = voxels.centroid(points, voxel);
   const std::span<const std::uint32_t> members = voxels[voxel];
   // Of two equally central points the one with smaller coordinates, wherever it stands in the
@@ -38,12 +39,12 @@ std::uint32_t most_central(const PointMatrix& points, const Voxels& voxels, std:
 
 FeaturePoints pick_feature_points(const Cloud& cloud, const Scale& scale, const Params& params) {
   double leaf = params.spacing * scale.resolution;
-  Voxels voxels = group_by_voxel(cloud.points, static_cast<float>(leaf));
+  geometry::Voxels voxels = geometry::group_by_voxel(cloud.points, static_cast<float>(leaf));
   const auto most = static_cast<std::size_t>(params.max_points);
   while (params.max_points > 0 && voxels.size() > most) {
     // A surface has a number of cubes that falls with the square of their edge.
     leaf *= 1.01 * std::sqrt(static_cast<double>(voxels.size()) / static_cast<double>(most));
-    voxels = group_by_voxel(cloud.points, static_cast<float>(leaf));
+    voxels = geometry::group_by_voxel(cloud.points, static_cast<float>(leaf));
   }
   FeaturePoints picked;
   for (std::size_t v = 0; v < voxels.size(); ++v)
@@ -63,4 +64,4 @@ const auto registered =
                "More points than this widen the spacing; 0: no limit.", graph::at_least(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::prepare

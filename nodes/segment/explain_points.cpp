@@ -3,7 +3,7 @@
 
 #include "graph/parallel.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 /// Most scan points lie far from the object and need no search.
@@ -20,7 +20,7 @@ Ball enclosing_ball(const PointMatrix& points, float margin) {
 
 }  // namespace
 
-std::vector<char> explain_points(const Cloud& model, const PointGrid& model_grid,
+std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& model_grid,
                                  const Eigen::Isometry3d& T_scene_model, const PointMatrix& points,
                                  const PointMatrix& normals, float distance) {
   const Eigen::Isometry3f T_model_scene = T_scene_model.inverse().cast<float>();
@@ -46,4 +46,4 @@ std::vector<char> explain_points(const Cloud& model, const PointGrid& model_grid
   return explained;
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/prepare/grid.hpp"
+#include "nodes/geometry/grid.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 /// Per row of `points`: 1 if a point of `model` lies within `distance` [m] once the model is posed,
 /// and their normals are less than 90 deg apart. `model_grid` holds the model's points.
-std::vector<char> explain_points(const Cloud& model, const PointGrid& model_grid,
+std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& model_grid,
                                  const Eigen::Isometry3d& T_scene_model, const PointMatrix& points,
                                  const PointMatrix& normals, float distance);
 
-}  // namespace posevote
+}  // namespace posevote::segment

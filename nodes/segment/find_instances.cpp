@@ -5,7 +5,7 @@
 
 #include "graph/parallel.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 using Searches = std::vector<ObjectSearch*>;
@@ -63,4 +63,4 @@ std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanSt
   return found;
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

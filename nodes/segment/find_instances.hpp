@@ -7,7 +7,7 @@
 
 #include "nodes/segment/object_search.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 struct Instance {
   std::size_t object = 0;  ///< index of its search
@@ -20,4 +20,4 @@ struct Instance {
 /// does not get them before the right one.
 std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan);
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 /// `better`: numbers of modes.
@@ -72,4 +72,4 @@ double runner_up_density(const VoteSet& votes, const std::vector<double>& densit
   return highest;
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -12,7 +12,7 @@
 
 #include "nodes/data/votes.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 /// Where vote `vote` puts the model's centre.
 Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote);
@@ -52,4 +52,4 @@ std::vector<std::size_t> separate_modes(const std::vector<PoseMode>& modes,
 double runner_up_density(const VoteSet& votes, const std::vector<double>& density,
                          const Eigen::Vector3f& center, float radius);
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "nodes/vote/pose_index.hpp"
+#include "nodes/density/pose_index.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 void check_object(const VoteSet& votes, const VoteDensity& density, std::size_t features) {
@@ -57,4 +57,4 @@ void check_votes(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& 
     check_object(votes[i], densities[i], scene_features);
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -9,7 +9,7 @@
 #include "graph/value.hpp"
 #include "nodes/data/votes.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 struct LiveVotes {
   const VoteSet* votes = nullptr;
@@ -27,4 +27,4 @@ void remove_explained(LiveVotes& object, const std::vector<char>& explained);
 void check_votes(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
                  std::size_t scene_features);
 
-}  // namespace posevote
+}  // namespace posevote::segment

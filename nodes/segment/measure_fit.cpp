@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "graph/parallel.hpp"
-#include "nodes/prepare/spread.hpp"
+#include "nodes/geometry/spread.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 constexpr double kConvincing = 0.1;   // inlier fraction x clues at which evidence is 63 %
@@ -26,10 +26,10 @@ struct Judged {
   unsigned ends = 0, overhang = 0;
 };
 
-Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& view,
-             const Eigen::Vector3f& viewpoint, float tolerance) {
+Judged judge(const geometry::OrientedPoint& p, const geometry::ScanSurface& scan,
+             const geometry::RangeView& view, const Eigen::Vector3f& viewpoint, float tolerance) {
   if (!scan.faces_sensor(p)) return {};
-  if (const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, tolerance))
+  if (const std::optional<geometry::OrientedPoint> partner = scan.nearest_compatible(p, tolerance))
     return {Verdict::kSupported,
             static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
   const float measured = view.measured_range(p.point);
@@ -41,9 +41,10 @@ Judged judge(const OrientedPoint& p, const ScanSurface& scan, const RangeView& v
 
 /// Looks where the model ends whether the scan does; what is hidden there does not tell.
 void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
-                const Eigen::Isometry3f& T, const OrientedPoint& p, const ScanSurface& scan,
-                const RangeView& view, float tolerance, Judged& judged) {
-  for_each_end(model, outline, i, [&](const Eigen::Vector3f& end) {
+                const Eigen::Isometry3f& T, const geometry::OrientedPoint& p,
+                const geometry::ScanSurface& scan, const geometry::RangeView& view, float tolerance,
+                Judged& judged) {
+  geometry::for_each_end(model, outline, i, [&](const Eigen::Vector3f& end) {
     const Eigen::Vector3f place = T * end;
     if (scan.nearest_compatible({place, p.normal}, tolerance)) {
       ++judged.overhang;
@@ -76,7 +77,7 @@ Fit count(const std::vector<Judged>& points) {
   if (fit.supported == 0) return fit;
   fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
   fit.rmse = std::sqrt(squared / static_cast<double>(fit.supported));
-  fit.relief = relief_of(normals / static_cast<double>(fit.supported));
+  fit.relief = geometry::relief_of(normals / static_cast<double>(fit.supported));
   return fit;
 }
 
@@ -88,15 +89,15 @@ double against(const Fit& fit) {
 
 }  // namespace
 
-Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& scan,
-                const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
-                Eigen::Index samples) {
+Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
+                const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
+                float tolerance, Eigen::Index samples) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Index stride = samples > 0 ? model.points.rows() / samples + 1 : 1;
   std::vector<Judged> points(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
     const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
-    const OrientedPoint p = posed_point(model, row, T);
+    const geometry::OrientedPoint p = geometry::posed_point(model, row, T);
     points[i] = judge(p, scan, view, scan.viewpoint(), tolerance);
     if (points[i].verdict == Verdict::kSupported)
       judge_ends(model, outline, row, T, p, scan, view, tolerance, points[i]);
@@ -105,13 +106,14 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& s
 }
 
 Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
-                      const ScanSurface& scan, const RangeView& view,
+                      const geometry::ScanSurface& scan, const geometry::RangeView& view,
                       const Eigen::Isometry3d& T_scene_model, float tolerance) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::vector<Judged> judged;
   judged.reserve(points.size());
   for (const std::uint32_t i : points)
-    judged.push_back(judge(posed_point(model, i, T), scan, view, scan.viewpoint(), tolerance));
+    judged.push_back(
+        judge(geometry::posed_point(model, i, T), scan, view, scan.viewpoint(), tolerance));
   const Fit fit = count(judged);
   return {static_cast<double>(fit.supported) - against(fit), fit.facing - fit.hidden};
 }
@@ -138,7 +140,7 @@ double fit_score(const Fit& fit) {
   if (fit.supported == 0) return 0;
   const auto supported = static_cast<double>(fit.supported);
   const double agreement = supported / (supported + against(fit));
-  const double looks = kOutlineDirections * supported;
+  const double looks = geometry::kOutlineDirections * supported;
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
   const double clues = fit.relief + kOutline * (ends - overhang) / looks;
   const double evidence = 1 - std::exp(-fit.inlier_fraction * clues / kConvincing);
@@ -146,4 +148,4 @@ double fit_score(const Fit& fit) {
   return agreement * evidence * continuity;
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/segment/outline.hpp"
-#include "nodes/segment/range_view.hpp"
-#include "nodes/segment/scan_surface.hpp"
+#include "nodes/geometry/outline.hpp"
+#include "nodes/geometry/range_view.hpp"
+#include "nodes/geometry/scan_surface.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 struct Fit {
   std::size_t facing = 0;  ///< all of the below
@@ -39,9 +39,9 @@ struct Fit {
 /// `tolerance`: of support; a surface is clearly behind or before at twice that [m]. `samples`:
 /// about as many points of the model are judged, evenly strewn; 0 judges all. `outline` is the
 /// model's.
-Fit measure_fit(const Cloud& model, const Outline& outline, const ScanSurface& scan,
-                const RangeView& view, const Eigen::Isometry3d& T_scene_model, float tolerance,
-                Eigen::Index samples = 0);
+Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
+                const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
+                float tolerance, Eigen::Index samples = 0);
 
 /// What some points say of a pose.
 struct Evidence {
@@ -51,11 +51,11 @@ struct Evidence {
 
 /// By the model's points with these numbers.
 Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
-                      const ScanSurface& scan, const RangeView& view,
+                      const geometry::ScanSurface& scan, const geometry::RangeView& view,
                       const Eigen::Isometry3d& T_scene_model, float tolerance);
 
 /// In [0, 1]: how much of what should be visible is there, times how much there is to go by; the
 /// .cpp gives the reasons.
 double fit_score(const Fit& fit);
 
-}  // namespace posevote
+}  // namespace posevote::segment

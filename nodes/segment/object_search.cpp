@@ -8,7 +8,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/segment/refine_mode.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 constexpr std::size_t kShortlist = 80;  // improved, judged by kSketch model points
@@ -108,12 +108,12 @@ void ObjectSearch::leave_out_likes() {
 /// the first steps. All are kept: the sketch judges where they led.
 void ObjectSearch::bring_closer() {
   if (!params_.refine) return;
-  const IcpParams coarse{kCoarseSteps, params_.icp_distance, params_.tolerance, kCoarseSamples,
-                         kCoarseStill};
+  const geometry::IcpParams coarse{kCoarseSteps, params_.icp_distance, params_.tolerance,
+                                   kCoarseSamples, kCoarseStill};
   const std::size_t count = std::min(kPromising, pool_.size());
   graph::parallel_for(count, 1, [&](std::size_t i) {
     Eigen::Isometry3d& T_scene_model = pool_[i].T_scene_model;
-    T_scene_model = icp(model_.cloud, scan_.surface, T_scene_model, coarse);
+    T_scene_model = geometry::icp(model_.cloud, scan_.surface, T_scene_model, coarse);
   });
   judge(0, count, kSketch);
   sort_by_rank(pool_.begin(), pool_.end());
@@ -266,13 +266,13 @@ void ObjectSearch::polish(Candidate& candidate) const {
 }
 
 /// Kept where it keeps the support.
-void ObjectSearch::run_icp(Candidate& candidate, const IcpParams& params) const {
+void ObjectSearch::run_icp(Candidate& candidate, const geometry::IcpParams& params) const {
   if (!params_.refine) return;
   const auto support = [this](const Eigen::Isometry3d& T_scene_model) {
     return static_cast<double>(measure(T_scene_model, kLook).supported);
   };
   const Eigen::Isometry3d T_refined =
-      icp(model_.cloud, scan_.surface, candidate.T_scene_model, params);
+      geometry::icp(model_.cloud, scan_.surface, candidate.T_scene_model, params);
   if (support(T_refined) >= kKeptSupport * support(candidate.T_scene_model))
     candidate.T_scene_model = T_refined;
 }
@@ -322,4 +322,4 @@ bool ObjectSearch::is_clear(const Eigen::Vector3f& center) const {
   });
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

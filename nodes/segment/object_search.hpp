@@ -8,12 +8,12 @@
 #include <optional>
 #include <vector>
 
+#include "nodes/geometry/icp.hpp"
 #include "nodes/segment/find_modes.hpp"
-#include "nodes/segment/icp.hpp"
 #include "nodes/segment/measure_fit.hpp"
 #include "nodes/segment/scan_state.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 struct InstanceParams {
   int max_instances = 1;
@@ -89,7 +89,7 @@ class ObjectSearch {
   bool is_convincing(Candidate& candidate) const;
   void refine(Candidate& candidate) const;
   void polish(Candidate& candidate) const;
-  void run_icp(Candidate& candidate, const IcpParams& params) const;
+  void run_icp(Candidate& candidate, const geometry::IcpParams& params) const;
   std::vector<Candidate>::iterator refine_best(std::vector<Candidate>& sorted) const;
   Candidate best_alike(const Candidate& candidate) const;
   double lead_over(const Candidate& origin, const Candidate& other) const;
@@ -113,4 +113,4 @@ class ObjectSearch {
   int proposed_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then
 };
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -3,28 +3,31 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "nodes/vote/pose_index.hpp"
+#include "nodes/density/pose_index.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 constexpr int kMaxShifts = 10;
 constexpr float kStill = 1e-3F;  // of the bandwidths: a shorter shift ends the search
 
-std::vector<WeightedVote> living_neighbours(const VoteDensity& density,
-                                            const std::vector<char>& alive, const PoseMode& pose) {
-  std::vector<WeightedVote> neighbours = density.index->neighbours(pose.center, pose.rotation);
-  std::erase_if(neighbours, [&alive](const WeightedVote& n) { return !alive[n.vote]; });
+std::vector<density::WeightedVote> living_neighbours(const VoteDensity& density,
+                                                     const std::vector<char>& alive,
+                                                     const PoseMode& pose) {
+  std::vector<density::WeightedVote> neighbours =
+      density.index->neighbours(pose.center, pose.rotation);
+  std::erase_if(neighbours, [&alive](const density::WeightedVote& n) { return !alive[n.vote]; });
   return neighbours;
 }
 
-double total_weight(const std::vector<WeightedVote>& neighbours) {
+double total_weight(const std::vector<density::WeightedVote>& neighbours) {
   double sum = 0;
-  for (const WeightedVote& neighbour : neighbours) sum += static_cast<double>(neighbour.weight);
+  for (const density::WeightedVote& neighbour : neighbours)
+    sum += static_cast<double>(neighbour.weight);
   return sum;
 }
 
-PoseMode weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& neighbours) {
+PoseMode weighted_mean(const VoteSet& votes, const std::vector<density::WeightedVote>& neighbours) {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Matrix4d moment = Eigen::Matrix4d::Zero();
   double sum = 0;
@@ -40,7 +43,8 @@ PoseMode weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& ne
   return {(center / sum).cast<float>(), Eigen::Quaternionf(mean).normalized(), 0};
 }
 
-bool stands_still(const PoseMode& before, const PoseMode& after, const Bandwidth& bandwidth) {
+bool stands_still(const PoseMode& before, const PoseMode& after,
+                  const density::Bandwidth& bandwidth) {
   return (after.center - before.center).norm() <= kStill * bandwidth.sigma_t &&
          before.rotation.angularDistance(after.rotation) <= kStill * bandwidth.sigma_r;
 }
@@ -50,10 +54,10 @@ bool stands_still(const PoseMode& before, const PoseMode& after, const Bandwidth
 PoseMode refine_mode(const VoteSet& votes, const VoteDensity& density,
                      const std::vector<char>& alive, const PoseMode& start) {
   PoseMode pose = start;
-  std::vector<WeightedVote> neighbours = living_neighbours(density, alive, pose);
+  std::vector<density::WeightedVote> neighbours = living_neighbours(density, alive, pose);
   for (int shift = 0; shift < kMaxShifts && !neighbours.empty(); ++shift) {
     const PoseMode mean = weighted_mean(votes, neighbours);
-    std::vector<WeightedVote> around_mean = living_neighbours(density, alive, mean);
+    std::vector<density::WeightedVote> around_mean = living_neighbours(density, alive, mean);
     if (total_weight(around_mean) < total_weight(neighbours)) break;
     const bool still = stands_still(pose, mean, density.index->bandwidth());
     pose = mean;
@@ -81,4 +85,4 @@ Eigen::Vector3d posed_center(const Eigen::Isometry3d& T_scene_model,
   return T_scene_model * model_center.cast<double>();
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

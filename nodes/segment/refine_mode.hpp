@@ -13,7 +13,7 @@
 #include "nodes/data/votes.hpp"
 #include "nodes/segment/find_modes.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 /// The pose shifted to a place where it is the mean of its neighbourhood; the support stays. Only
 /// votes with alive[v] count.
@@ -30,4 +30,4 @@ Eigen::Isometry3d T_scene_model_of(const PoseMode& pose, const Eigen::Vector3f& 
 Eigen::Vector3d posed_center(const Eigen::Isometry3d& T_scene_model,
                              const Eigen::Vector3f& model_center);
 
-}  // namespace posevote
+}  // namespace posevote::segment

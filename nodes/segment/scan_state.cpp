@@ -4,7 +4,7 @@
 #include "nodes/segment/explain_points.hpp"
 #include "nodes/segment/refine_mode.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 constexpr float kSearchCell = 2;  // x resolution
@@ -22,7 +22,7 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {
   ++takes;
-  const PointGrid grid(model.cloud.points, distance);
+  const geometry::PointGrid grid(model.cloud.points, distance);
   surface.take_out(
       explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance));
   const std::vector<char> now =
@@ -37,7 +37,7 @@ double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_
 
 std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
                                        float distance) const {
-  const PointGrid grid(model.cloud.points, distance);
+  const geometry::PointGrid grid(model.cloud.points, distance);
   const std::vector<char> now =
       explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
   std::size_t count = 0;
@@ -45,4 +45,4 @@ std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry
   return count;
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "nodes/data/model.hpp"
-#include "nodes/segment/range_view.hpp"
-#include "nodes/segment/scan_surface.hpp"
+#include "nodes/geometry/range_view.hpp"
+#include "nodes/geometry/scan_surface.hpp"
 #include "nodes/segment/usual_residual.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 struct ScanState {
   /// Keeps references to both.
@@ -29,11 +29,11 @@ struct ScanState {
   const Cloud& cloud;
   const FeatureSet& features;
   float resolution;  // [m]
-  RangeView view;
-  ScanSurface surface;
+  geometry::RangeView view;
+  geometry::ScanSurface surface;
   std::vector<char> feature_explained;  // per scene feature
   int takes = 0;                        // how often something was taken out
   UsualResidual usual_residual;         // of what was found
 };
 
-}  // namespace posevote
+}  // namespace posevote::segment

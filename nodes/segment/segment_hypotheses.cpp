@@ -12,7 +12,7 @@
 #include "nodes/segment/refine_mode.hpp"
 #include "nodes/segment/segment_params.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 PoseMode mode_of(const Hypothesis& hypothesis, const Model& model) {
@@ -73,4 +73,4 @@ const auto registered = with_segment_params(
         .output("detections"));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -20,7 +20,7 @@
 #include "nodes/segment/refine_mode.hpp"
 #include "nodes/segment/segment_params.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 Detection make_detection(const LiveVotes& object, const Candidate& candidate) {
@@ -83,4 +83,4 @@ const auto registered = with_segment_params(
         .output("detections"));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::segment

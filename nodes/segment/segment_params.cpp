@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 /// A point set without a normal for each point is refused; a normal of length 0 is not.
@@ -65,4 +65,4 @@ void check_model(const Model& model) {
                                " points, but its near symmetries are of a cloud with more");
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -6,7 +6,7 @@
 #include "nodes/data/detections.hpp"
 #include "nodes/segment/find_instances.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_density means
 
@@ -68,4 +68,4 @@ Registration with_segment_params(Registration node) {
   return node;
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

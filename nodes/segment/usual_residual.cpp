@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace posevote {
+namespace posevote::segment {
 namespace {
 
 // A model of lower quality than the others leaves more, too: that alone sinks no pose that fits
@@ -30,4 +30,4 @@ double UsualResidual::exactness(const Fit& fit, double range, double times, doub
   return std::max(kLeastExactness, most * most / (fit.rmse * fit.rmse));
 }
 
-}  // namespace posevote
+}  // namespace posevote::segment

@@ -11,7 +11,7 @@
 
 #include "nodes/segment/measure_fit.hpp"
 
-namespace posevote {
+namespace posevote::segment {
 
 class UsualResidual {
  public:
@@ -25,4 +25,4 @@ class UsualResidual {
   double squared_ = 0, range_ = 0, weight_ = 0;  // weighted sums
 };
 
-}  // namespace posevote
+}  // namespace posevote::segment

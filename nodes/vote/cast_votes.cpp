@@ -32,7 +32,7 @@
 #include "nodes/data/splitmix64.hpp"
 #include "nodes/data/votes.hpp"
 
-namespace posevote {
+namespace posevote::vote {
 namespace {
 
 struct Params {
@@ -157,4 +157,4 @@ const auto registered =
                graph::in_range(1, 360));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::vote

@@ -10,24 +10,24 @@
 // Fails never: a vote that is not finite counts nowhere and gets density 0. No votes, no densities.
 //
 //   estimate_density: {in: votes, out: densities, sigma_t: 0.01, sigma_r: 22.5}
-#include "nodes/vote/density_params.hpp"
-#include "nodes/vote/pose_index.hpp"
+#include "nodes/density/density_params.hpp"
+#include "nodes/density/pose_index.hpp"
 
-namespace posevote {
+namespace posevote::vote {
 namespace {
 
-VoteDensity estimate_density(const VoteSet& votes, const DensityParams& params) {
+VoteDensity estimate_density(const VoteSet& votes, const density::DensityParams& params) {
   VoteDensity result;
-  result.index = std::make_shared<const PoseIndex>(votes, params.bandwidth());
+  result.index = std::make_shared<const density::PoseIndex>(votes, params.bandwidth());
   result.density = result.index->densities();
   return result;
 }
 
-const auto registered = with_density_params(
+const auto registered = density::with_density_params(
     graph::register_node("estimate_density", estimate_density,
                          "The kernel density of the pose votes in SE(3), at every vote.")
         .input("votes")
         .output("densities"));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::vote

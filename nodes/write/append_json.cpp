@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace posevote {
+namespace posevote::write {
 
 AppendJson::AppendJson(std::filesystem::path file, const std::string& head, std::string tail)
     : file_(std::move(file)), tail_(std::move(tail)) {
@@ -46,4 +46,4 @@ void AppendJson::put(const std::string& text) {
     throw std::runtime_error(file_.string() + ": cannot be written: " + std::strerror(errno));
 }
 
-}  // namespace posevote
+}  // namespace posevote::write

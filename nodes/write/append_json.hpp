@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-namespace posevote {
+namespace posevote::write {
 
 /// Writes `head`, items, each on a line of its own, and a tail. Every append overwrites the old
 /// tail with the item and a new tail. A write that fails (full disk) throws std::runtime_error
@@ -31,4 +31,4 @@ class AppendJson {
   bool empty_ = true;
 };
 
-}  // namespace posevote
+}  // namespace posevote::write

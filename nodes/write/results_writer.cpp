@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace posevote {
+namespace posevote::write {
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +172,4 @@ std::string csv_rows(const FrameReport& frame, const Detections& detections) {
   return rows;
 }
 
-}  // namespace posevote
+}  // namespace posevote::write

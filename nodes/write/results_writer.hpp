@@ -15,7 +15,7 @@
 #include "nodes/data/files.hpp"
 #include "nodes/write/append_json.hpp"
 
-namespace posevote {
+namespace posevote::write {
 
 /// A frame as it is reported.
 struct FrameReport {
@@ -70,4 +70,4 @@ WrittenFrames read_frames(const std::filesystem::path& file, const std::string& 
 /// "scene_id,im_id,obj_id,score,R,t,time": R row by row, t in mm, time in s; one line a detection.
 std::string csv_rows(const FrameReport& frame, const Detections& detections);
 
-}  // namespace posevote
+}  // namespace posevote::write

@@ -17,7 +17,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 
-namespace posevote {
+namespace posevote::write {
 namespace {
 
 struct Params {
@@ -71,4 +71,4 @@ const auto registered = graph::register_node("write_correspondences", write_corr
                                    "Only every n-th frame; 0: none.", graph::at_least(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::write

@@ -13,17 +13,17 @@
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/model.hpp"
-#include "nodes/write/canvas.hpp"
+#include "nodes/pictures/canvas.hpp"
 #include "nodes/write/write_ply.hpp"
 
-namespace posevote {
+namespace posevote::write {
 namespace {
 
 struct Params {
   int every = 1;
 };
 
-Rgb to_rgb(const Colour& colour) {
+Rgb to_rgb(const pictures::Colour& colour) {
   return {static_cast<std::uint8_t>(255 * colour.x()), static_cast<std::uint8_t>(255 * colour.y()),
           static_cast<std::uint8_t>(255 * colour.z())};
 }
@@ -53,7 +53,8 @@ void write_overlay(const Cloud& scan, const Detections& detections, const ModelL
     const Model* model = find_model(library, found.obj_id);
     if (!model) continue;
     append(overlay, model->cloud, found.T_scene_model.cast<float>());
-    colours.resize(static_cast<std::size_t>(overlay.points.rows()), to_rgb(distinct_colour(i)));
+    colours.resize(static_cast<std::size_t>(overlay.points.rows()),
+                   to_rgb(pictures::distinct_colour(i)));
   }
   std::filesystem::create_directories(context.out / "overlays");
   write_ply(context.out / "overlays" / (context.name + ".ply"), overlay, 1, colours);
@@ -69,4 +70,4 @@ const auto registered =
                graph::at_least(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::write

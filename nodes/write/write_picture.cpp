@@ -13,9 +13,9 @@
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/model.hpp"
-#include "nodes/write/painter.hpp"
+#include "nodes/pictures/painter.hpp"
 
-namespace posevote {
+namespace posevote::write {
 namespace {
 
 struct Params {
@@ -42,14 +42,15 @@ void write_picture(const Cloud& scan, const Detections& detections, const ModelL
                    const graph::FrameContext& context, const Params& params) {
   if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
   if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
-  Painter painter(scan, found_points(detections, library), params.width, library.scale.resolution);
+  pictures::Painter painter(scan, found_points(detections, library), params.width,
+                            library.scale.resolution);
   painter.draw(scan, Eigen::Isometry3f::Identity(), {0.72F, 0.72F, 0.70F}, 0);
   for (std::size_t i = 0; i < detections.items.size(); ++i) {
     const Detection& found = detections.items[i];
     const Model* model = find_model(library, found.obj_id);
     if (!model) continue;
     const Eigen::Isometry3f T_scene_model = found.T_scene_model.cast<float>();
-    const Colour colour = distinct_colour(i);
+    const pictures::Colour colour = pictures::distinct_colour(i);
     // A good fit lies on the scan: without a lead, scan and model would mix at random.
     painter.draw(model->cloud, T_scene_model, colour, 2 * library.scale.resolution);
     char score[32];
@@ -71,4 +72,4 @@ const auto registered =
                graph::at_least(0));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::write

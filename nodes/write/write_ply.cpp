@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace posevote {
+namespace posevote::write {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +84,4 @@ void write_ply(const fs::path& file, const Cloud& cloud, double units_per_metre,
   throw std::runtime_error(file.string() + ": cannot be written: " + problem.message());
 }
 
-}  // namespace posevote
+}  // namespace posevote::write

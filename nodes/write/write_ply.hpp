@@ -8,7 +8,7 @@
 
 #include "nodes/data/cloud.hpp"
 
-namespace posevote {
+namespace posevote::write {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
@@ -19,4 +19,4 @@ using Rgb = std::array<std::uint8_t, 3>;
 void write_ply(const std::filesystem::path& file, const Cloud& cloud, double units_per_metre = 1,
                const std::vector<Rgb>& colours = {});
 
-}  // namespace posevote
+}  // namespace posevote::write

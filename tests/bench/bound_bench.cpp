@@ -13,18 +13,18 @@
 #include <random>
 #include <vector>
 
+#include "nodes/density/scan_votes.hpp"
+#include "nodes/density/vote_table.hpp"
 #include "nodes/describe/point_pair_sums.hpp"
-#include "nodes/match/descriptor_kernels.hpp"
-#include "nodes/prepare/plane_moments.hpp"
-#include "nodes/vote/scan_votes.hpp"
-#include "nodes/vote/vote_table.hpp"
+#include "nodes/descriptors/descriptor_kernels.hpp"
+#include "nodes/geometry/plane_moments.hpp"
 #include "tests/bench/machine_rate.hpp"
 
 namespace posevote {
 namespace {
 
 constexpr std::size_t kItems = 1024;
-constexpr std::size_t kPadded = kItems + kScanPadding;
+constexpr std::size_t kPadded = kItems + density::kScanPadding;
 constexpr std::size_t kRounds = 10000;
 
 /// Numbers in [-1, 1].
@@ -75,65 +75,68 @@ void machine_read(benchmark::State& state) {
 
 void inner_plane_moments(benchmark::State& state) {
   const auto x = numbers(kPadded, 1), y = numbers(kPadded, 2), z = numbers(kPadded, 3);
-  const GridRun run{0, kItems};
+  const geometry::GridRun run{0, kItems};
   const float center[3] = {0, 0, 0};
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        plane_moments({x.data(), y.data(), z.data(), x.data()}, &run, 1, center, 1));
+        geometry::plane_moments({x.data(), y.data(), z.data(), x.data()}, &run, 1, center, 1));
   report(state, kItems, 37);
 }
 
 void inner_point_pairs(benchmark::State& state) {
   std::vector<std::vector<float>> c;
   for (unsigned i = 0; i < 6; ++i) c.push_back(numbers(kPadded, i));
-  const GridRun run{0, kItems};
+  const geometry::GridRun run{0, kItems};
   const float point[3] = {0, 0, 0}, normal[3] = {0, 0, 1};
-  PointPairSums sums{};
+  describe::PointPairSums sums{};
   for (auto _ : state)  // all are near, all face the same side
-    benchmark::DoNotOptimize(add_point_pairs(
+    benchmark::DoNotOptimize(describe::add_point_pairs(
         {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(), c[5].data()}, &run, 1,
         {point, normal, 2, -2}, sums));
   report(state, kItems, 185);
 }
 
 void inner_votes(benchmark::State& state) {
-  VoteTable votes;
+  density::VoteTable votes;
   votes.resize(kItems);
-  for (unsigned c = 0; c < kVoteColumns; ++c) {  // all are near
+  for (unsigned c = 0; c < density::kVoteColumns; ++c) {  // all are near
     const std::vector<float> column = numbers(kItems, c);
     std::transform(column.begin(), column.end(), votes[c],
                    [c](float x) { return c == 3 ? 1 : 1e-3F * x; });
   }
-  const IndexRange range{0, kItems / kBlock};
-  std::vector<std::uint32_t> back(kPadded, 0), found(kItems / kBlock * kFoundPerBlock + kGroup);
-  const Kernel kernel = make_kernel({});
-  VotePoint queries[kGroup];
-  std::fill_n(queries, kGroup, VotePoint{0, 0, 0, 1, 0, 0, 0});
-  float nowhere[kGroup];
-  const Mutual mutual{nowhere, back.data()};
-  std::uint64_t sums[kGroup];
+  const density::IndexRange range{0, kItems / density::kBlock};
+  std::vector<std::uint32_t> back(kPadded, 0),
+      found(kItems / density::kBlock * density::kFoundPerBlock + density::kGroup);
+  const density::Kernel kernel = density::make_kernel({});
+  density::VotePoint queries[density::kGroup];
+  std::fill_n(queries, density::kGroup, density::VotePoint{0, 0, 0, 1, 0, 0, 0});
+  float nowhere[density::kGroup];
+  const density::Mutual mutual{nowhere, back.data()};
+  std::uint64_t sums[density::kGroup];
   for (auto _ : state) {
-    scan_votes(kernel, votes.columns(), queries, kGroup, {&range, 1}, &mutual, found.data(), sums);
+    density::scan_votes(kernel, votes.columns(), queries, density::kGroup, {&range, 1}, &mutual,
+                        found.data(), sums);
     benchmark::DoNotOptimize(sums);
   }
-  report(state, kGroup * kItems, 53);
+  report(state, density::kGroup * kItems, 53);
 }
 
 void inner_scores(benchmark::State& state) {
   constexpr std::size_t kDimension = 64;
-  const auto queries = numbers(kTileQueries * kDimension, 1);
+  const auto queries = numbers(descriptors::kTileQueries * kDimension, 1);
   const hwy::AlignedFreeUniquePtr<float[]> panel =
-      hwy::AllocateAligned<float>(kPanelRows * kDimension);
-  std::fill_n(panel.get(), kPanelRows * kDimension, 0.5F);
-  const std::vector<float> half_norms(kPanelRows, 1);
-  std::vector<float> scores(kTileQueries * kPanelRows);
+      hwy::AllocateAligned<float>(descriptors::kPanelRows * kDimension);
+  std::fill_n(panel.get(), descriptors::kPanelRows * kDimension, 0.5F);
+  const std::vector<float> half_norms(descriptors::kPanelRows, 1);
+  std::vector<float> scores(descriptors::kTileQueries * descriptors::kPanelRows);
   for (auto _ : state) {
-    score_panel(queries.data(), panel.get(), kDimension, half_norms.data(), scores.data(),
-                kPanelRows);
+    descriptors::score_panel(queries.data(), panel.get(), kDimension, half_norms.data(),
+                             scores.data(), descriptors::kPanelRows);
     benchmark::DoNotOptimize(scores.data());
   }
   // A fused multiply-add counts as one, as the machine takes it.
-  report(state, static_cast<double>(kTileQueries * kPanelRows), kDimension);
+  report(state, static_cast<double>(descriptors::kTileQueries * descriptors::kPanelRows),
+         kDimension);
 }
 
 BENCHMARK(machine_arithmetic);

@@ -11,8 +11,8 @@
 #include <cmath>
 #include <random>
 
-#include "nodes/vote/pose_index.hpp"
-#include "nodes/vote/sorted_votes.hpp"
+#include "nodes/density/pose_index.hpp"
+#include "nodes/density/sorted_votes.hpp"
 #include "tests/support/instruction_set.hpp"
 
 namespace posevote {
@@ -81,20 +81,20 @@ const VoteSet& votes() {
   return set;
 }
 
-VotePoint point(std::size_t v) { return vote_point(votes(), v); }
+density::VotePoint point(std::size_t v) { return density::vote_point(votes(), v); }
 
 void build_index(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
   votes();
-  for (auto _ : state) benchmark::DoNotOptimize(PoseIndex(votes(), {}));
+  for (auto _ : state) benchmark::DoNotOptimize(density::PoseIndex(votes(), {}));
 }
 
 void density(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
   votes();
-  for (auto _ : state) benchmark::DoNotOptimize(PoseIndex(votes(), {}).densities());
+  for (auto _ : state) benchmark::DoNotOptimize(density::PoseIndex(votes(), {}).densities());
 }
 
 /// On a processor that has nothing newer than AVX2.
@@ -108,7 +108,7 @@ void density_avx2(benchmark::State& state) {
 void subtract(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
-  const PoseIndex index(votes(), {});
+  const density::PoseIndex index(votes(), {});
   const std::vector<double> before = index.densities();
   std::vector<char> alive(before.size(), 1);
   std::vector<std::uint32_t> removed;
@@ -124,11 +124,11 @@ void subtract(benchmark::State& state) {
 }
 
 void neighbours(benchmark::State& state) {
-  const PoseIndex index(votes(), {});
+  const density::PoseIndex index(votes(), {});
   std::size_t v = 0;
   for (auto _ : state) {
     v = (v + 7919) % votes().tx.size();
-    const VotePoint p = point(v);
+    const density::VotePoint p = point(v);
     benchmark::DoNotOptimize(
         index.neighbours({p.tx, p.ty, p.tz}, Eigen::Quaternionf(p.qw, p.qx, p.qy, p.qz)));
   }
@@ -149,11 +149,11 @@ void textbook(benchmark::State& state) {
     for (std::size_t v = 0; v < votes().tx.size(); v += kStride) {
       tree.radiusSearch(*cloud, static_cast<int>(v), 0.01, found, squared);
       for (const int other : found) {
-        const VotePoint a = point(v), b = point(static_cast<std::size_t>(other));
+        const density::VotePoint a = point(v), b = point(static_cast<std::size_t>(other));
         const float dot = a.qw * b.qw + a.qx * b.qx + a.qy * b.qy + a.qz * b.qz;
         const float angle = 2 * std::acos(std::min(1.0F, std::abs(dot)));
         if (angle > 22.5F * static_cast<float>(kDegree)) continue;
-        sum += std::exp(-squared_distance(a, b) / (2 * 0.01F * 0.01F)) *
+        sum += std::exp(-density::squared_distance(a, b) / (2 * 0.01F * 0.01F)) *
                std::exp(-angle * angle / (2 * 0.3926991F * 0.3926991F));
         ++members;
       }

@@ -16,10 +16,10 @@
 
 #include "nodes/data/model.hpp"
 #include "nodes/data/votes.hpp"
+#include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/geometry/icp.hpp"
+#include "nodes/geometry/nearest_index.hpp"
 #include "nodes/load/read_cloud.hpp"
-#include "nodes/match/descriptor_index.hpp"
-#include "nodes/prepare/nearest_index.hpp"
-#include "nodes/segment/icp.hpp"
 #include "nodes/segment/measure_fit.hpp"
 #include "nodes/write/write_ply.hpp"
 #include "tests/support/run_node.hpp"
@@ -84,13 +84,13 @@ void count_items(benchmark::State& state, Eigen::Index items) {
 struct PlyFile {
   std::filesystem::path path = std::filesystem::temp_directory_path() /
                                ("kernel_bench_" + std::to_string(getpid()) + ".ply");
-  PlyFile() { write_ply(path, setting().mesh); }
+  PlyFile() { write::write_ply(path, setting().mesh); }
   ~PlyFile() { std::filesystem::remove(path); }
 };
 
 void read_ply(benchmark::State& state) {
   const PlyFile file;
-  for (auto _ : state) benchmark::DoNotOptimize(read_cloud(file.path, 1));
+  for (auto _ : state) benchmark::DoNotOptimize(load::read_cloud(file.path, 1));
   count_items(state, setting().mesh.points.rows());
 }
 
@@ -131,7 +131,7 @@ void match(benchmark::State& state, const std::string& search) {
   model->cloud = setting().model.cloud;
   model->features = setting().model.features;
   ModelLibrary library{{model}, {kResolution}, nullptr};
-  library.index = index_of(library.models, {search});
+  library.index = descriptors::index_of(library.models, {search});
   for (auto _ : state)
     benchmark::DoNotOptimize(run_node<PerObject<Correspondences>>(
         "match_features", {}, setting().scan.features, library));
@@ -147,7 +147,7 @@ PointMatrix posed_points() {
 
 void nearest_by_index(benchmark::State& state) {
   const PointMatrix& points = setting().scan.cloud.points;
-  const NearestIndex near(points, 2 * kResolution);
+  const geometry::NearestIndex near(points, 2 * kResolution);
   const std::vector<char> shown(static_cast<std::size_t>(points.rows()), 0);
   const PointMatrix queries = posed_points();
   for (auto _ : state)
@@ -157,7 +157,7 @@ void nearest_by_index(benchmark::State& state) {
 }
 
 void nearest_by_grid(benchmark::State& state) {
-  const PointGrid grid(setting().scan.cloud.points, 2 * kResolution);
+  const geometry::PointGrid grid(setting().scan.cloud.points, 2 * kResolution);
   const PointMatrix queries = posed_points();
   for (auto _ : state)
     for (Eigen::Index i = 0; i < queries.rows(); ++i)
@@ -167,35 +167,35 @@ void nearest_by_grid(benchmark::State& state) {
 
 void build_nearest_index(benchmark::State& state) {
   const PointMatrix& points = setting().scan.cloud.points;
-  for (auto _ : state) benchmark::DoNotOptimize(NearestIndex(points, 2 * kResolution));
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::NearestIndex(points, 2 * kResolution));
   count_items(state, points.rows());
 }
 
 void outline(benchmark::State& state) {
   const Cloud& cloud = setting().model.cloud;
-  for (auto _ : state) benchmark::DoNotOptimize(outline_of(cloud, 5 * kResolution));
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::outline_of(cloud, 5 * kResolution));
   count_items(state, cloud.points.rows());
 }
 
 void score_pose(benchmark::State& state) {
   const Setting& s = setting();
-  const Outline outline = outline_of(s.model.cloud, 5 * kResolution);
-  const RangeView view(s.scan.cloud, kResolution);
-  const ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
+  const Outline outline = geometry::outline_of(s.model.cloud, 5 * kResolution);
+  const geometry::RangeView view(s.scan.cloud, kResolution);
+  const geometry::ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        measure_fit(s.model.cloud, outline, surface, view, s.T_scene_model, 2 * kResolution, 0));
+    benchmark::DoNotOptimize(segment::measure_fit(s.model.cloud, outline, surface, view,
+                                                  s.T_scene_model, 2 * kResolution, 0));
   count_items(state, s.model.cloud.points.rows());
 }
 
 void refine_pose(benchmark::State& state) {
   const Setting& s = setting();
-  const ScanSurface surface(s.scan.cloud, true, 2 * kResolution);
+  const geometry::ScanSurface surface(s.scan.cloud, true, 2 * kResolution);
   Eigen::Isometry3d start = s.T_scene_model;
   start.translation().x() += 2 * static_cast<double>(kResolution);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        icp(s.model.cloud, surface, start, {40, 5 * kResolution, 2 * kResolution}));
+        geometry::icp(s.model.cloud, surface, start, {40, 5 * kResolution, 2 * kResolution}));
 }
 
 BENCHMARK(read_ply)->Unit(benchmark::kMillisecond);

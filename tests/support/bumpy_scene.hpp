@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "nodes/data/model.hpp"
-#include "nodes/segment/outline.hpp"
+#include "nodes/geometry/outline.hpp"
 
 namespace posevote::test {
 
@@ -102,7 +102,7 @@ inline std::shared_ptr<const Model> bumpy_model(int shape) {
   const Eigen::RowVector3f high = model->cloud.points.colwise().maxCoeff();
   model->center = (0.5F * (low + high)).transpose();
   model->diagonal = (high - low).norm();
-  model->outline = outline_of(model->cloud, 5 * kResolution);
+  model->outline = geometry::outline_of(model->cloud, 5 * kResolution);
   return model;
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "nodes/data/votes.hpp"
-#include "nodes/vote/kernel.hpp"
+#include "nodes/density/kernel.hpp"
 
 namespace posevote::test {
 
@@ -37,7 +37,7 @@ inline Eigen::Quaternionf random_rotation(std::mt19937& random) {
 /// Votes around `clusters` poses in a cube of edge `extent`, each within a few bandwidths of its
 /// pose, some of them exact copies; signs of quaternions at random.
 inline VoteSet clustered_votes(std::mt19937& random, std::size_t count, std::size_t clusters,
-                               float extent, Bandwidth bandwidth) {
+                               float extent, density::Bandwidth bandwidth) {
   std::uniform_real_distribution<float> uniform(-1, 1);
   std::vector<Eigen::Vector3f> t;
   std::vector<Eigen::Quaternionf> q;

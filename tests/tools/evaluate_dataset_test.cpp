@@ -21,7 +21,7 @@ void write_box(const std::filesystem::path& file) {
   for (int i = 0; i < 8; ++i)
     bar.points.row(i) << (i & 1 ? 30.F : 0.F), (i & 2 ? 40.F : 0.F), (i & 4 ? 120.F : 0.F);
   std::filesystem::create_directories(file.parent_path());
-  write_ply(file, bar);
+  write::write_ply(file, bar);
 }
 
 std::string message_of(const TemporaryFolder& folder, const std::string& targets = "") {

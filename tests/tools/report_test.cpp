@@ -75,7 +75,7 @@ Detection found(const std::string& model, double score) {
   return found;
 }
 
-FrameReport frame(std::size_t number, const std::string& name) {
+write::FrameReport frame(std::size_t number, const std::string& name) {
   return {number,
           {"scans/" + name + ".ply", 0, static_cast<int>(number), {}},
           1.0 + static_cast<double>(number),
@@ -85,11 +85,11 @@ FrameReport frame(std::size_t number, const std::string& name) {
 
 /// A run of three frames, each with a picture, and a failure.
 void write_run(const std::filesystem::path& folder) {
-  ResultsWriter writer(folder, false);
+  write::ResultsWriter writer(folder, false);
   writer.write(frame(0, "one"), {{found("chef", 0.91), found("chicken", 0.42)}}, "[]");
   writer.write(frame(1, "two"), {{found("chef", 0.93)}}, "[]");
   writer.write(frame(2, "three"), {}, "[]");
-  writer.write(FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
+  writer.write(write::FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
   std::filesystem::create_directories(folder / "pictures");
   for (const char* name : {"one", "two", "three"})
     std::ofstream(folder / "pictures" / (std::string(name) + ".png")) << kPng << name;
@@ -175,9 +175,9 @@ TEST_CASE("odd names and messages", "[report]") {
   const TemporaryFolder folder;
   const std::string name = "a<b>&\"c\"\xff";
   {
-    ResultsWriter writer(folder.path(), false);
+    write::ResultsWriter writer(folder.path(), false);
     writer.write(frame(0, name), {{found("</td><script>x</script>", 2)}}, "[]");
-    writer.write(FailureReport{1, name, "<node>", "\"&\xfe\n"});
+    writer.write(write::FailureReport{1, name, "<node>", "\"&\xfe\n"});
   }
   std::filesystem::create_directories(folder / "pictures");
   std::ofstream(folder / "pictures" / (name + ".png")) << kPng;

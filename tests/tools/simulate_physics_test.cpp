@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nodes/prepare/grid.hpp"
+#include "nodes/geometry/grid.hpp"
 #include "tools/simulate/physics.hpp"
 #include "tools/simulate/shapes.hpp"
 
@@ -43,7 +43,7 @@ Eigen::Matrix3Xd points_of(const Body& body) {
 /// How deep points of `body` lie inside of `other`, to a vertex' spacing [m].
 double reach_into(const Body& body, const Body& other) {
   const Eigen::Matrix3Xd in_other = other.T_world_body.inverse() * points_of(body);
-  const PointGrid surface(other.mesh->points, 0.01F);
+  const geometry::PointGrid surface(other.mesh->points, 0.01F);
   double deepest = 0;
   for (Eigen::Index v = 0; v < in_other.cols(); v += 400)
     if (winding_number(*other.mesh, in_other.col(v)) > 0.5)

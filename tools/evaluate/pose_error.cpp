@@ -23,7 +23,7 @@ Eigen::Matrix3Xd sample_of(const PointMatrix& points, Eigen::Index most) {
 
 /// Distance to the nearest point. `some` are points too: the nearest of them bounds the search to a
 /// ball that holds few others.
-double nearest_distance(const PointGrid& grid, const Eigen::Matrix3Xd& some,
+double nearest_distance(const geometry::PointGrid& grid, const Eigen::Matrix3Xd& some,
                         const Eigen::Vector3d& point) {
   const double bound = std::sqrt((some.colwise() - point).colwise().squaredNorm().minCoeff());
   const auto near = grid.nearest(point.cast<float>(), static_cast<float>(1.00001 * bound));

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "nodes/prepare/grid.hpp"
+#include "nodes/geometry/grid.hpp"
 #include "tools/evaluate/ground_truth.hpp"
 
 namespace posevote {
@@ -45,7 +45,7 @@ class PoseMeter {
   const TrueObject* object_;
   Eigen::Matrix3Xd sample_, few_, extreme_, all_;
   std::vector<Eigen::Isometry3d> steps_;
-  PointGrid grid_;
+  geometry::PointGrid grid_;
 };
 
 }  // namespace posevote

@@ -81,7 +81,7 @@ void draw(const Corner& a, const Corner& b, const Corner& c, RangeImage& image) 
 
 RangeImage read_range_image(const TrueImage& image) {
   try {
-    const DepthImage depth = decode_depth_png(read_file(image.depth).view());
+    const load::DepthImage depth = load::decode_depth_png(load::read_file(image.depth).view());
     RangeImage ranges{0, 0, static_cast<int>(depth.width), static_cast<int>(depth.height), {}};
     ranges.ranges.reserve(depth.values.size());
     const double scale = image.camera->depth_scale / 1000;

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/prepare/grid.hpp"
+#include "nodes/geometry/grid.hpp"
 
 namespace posevote {
 
@@ -28,7 +28,7 @@ class CorrespondenceJudge {
  private:
   Cloud model_;
   double radius_;
-  PointGrid grid_;
+  geometry::PointGrid grid_;
 };
 
 }  // namespace posevote

@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/winding.hpp"
 #include "nodes/load/read_cloud.hpp"
-#include "nodes/prepare/normals.hpp"
-#include "nodes/prepare/winding.hpp"
 #include "nodes/write/write_ply.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/results_csv.hpp"
@@ -78,20 +78,21 @@ Subject find_subject(const std::string& dataset, const fs::path& out) {
   if (dataset.empty()) {
     subject.file = out / "model.ply";
     spdlog::info("no --dataset: a procedural figure stands in for the Bunny");
-    if (!fs::exists(subject.file)) write_ply(subject.file, make_shape("figure", 1, 0.2));
+    if (!fs::exists(subject.file)) write::write_ply(subject.file, make_shape("figure", 1, 0.2));
   } else if (fs::is_directory(dataset)) {
     subject.file = fs::path(dataset) / "bunny.ply";
   }
   try {
-    subject.mesh = read_cloud(subject.file, 1);
+    subject.mesh = load::read_cloud(subject.file, 1);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(subject.file.string() + ": " + error.what());
   }
   if (subject.mesh.faces.rows() == 0)
     throw std::invalid_argument(subject.file.string() + ": has no faces, expected a mesh in m");
-  subject.mesh = keep_oriented(
+  subject.mesh = geometry::keep_oriented(
       subject.mesh,
-      face_normals(subject.mesh.points, wind_outward(subject.mesh.points, subject.mesh.faces)));
+      geometry::face_normals(subject.mesh.points,
+                             geometry::wind_outward(subject.mesh.points, subject.mesh.faces)));
   return subject;
 }
 

@@ -83,8 +83,8 @@ bool holds_run(const fs::path& folder) { return is_file(folder / "results.json")
 
 RunResults read_run(const fs::path& folder) {
   RunResults run;
-  const WrittenFrames answered = read_frames(folder / "results.json", "detections");
-  const WrittenFrames failed = read_frames(folder / "failures.json", "what");
+  const write::WrittenFrames answered = write::read_frames(folder / "results.json", "detections");
+  const write::WrittenFrames failed = write::read_frames(folder / "failures.json", "what");
   StageSums stages;
   for (const Json& json : answered.items) {
     run.frames.push_back(to_frame(json));

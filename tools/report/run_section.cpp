@@ -137,7 +137,7 @@ std::string failures(const RunResults& run) {
 
 std::string parameters(const fs::path& folder) {
   try {
-    const FileBytes yaml = read_file(folder / "effective.yaml");
+    const load::FileBytes yaml = load::read_file(folder / "effective.yaml");
     return html::heading("Parameters") +
            html::fold("effective.yaml",
                       "<pre>" + escape_markup(std::string(yaml.view())) + "</pre>\n");

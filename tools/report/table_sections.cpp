@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 /// "" where there is none.
 std::string plot(const fs::path& svg) {
   try {
-    const FileBytes bytes = read_file(svg);
+    const load::FileBytes bytes = load::read_file(svg);
     return "<div class=\"wide\">" +
            html::image("svg+xml", bytes.view(), svg.stem().string(), "class=\"plot\"") + "</div>\n";
   } catch (const std::runtime_error&) {

@@ -40,6 +40,6 @@ struct TrueDepth {
 Eigen::Vector3d ray_of(const Camera& camera, std::size_t u, std::size_t v);
 
 /// The image that the sensor takes. The same seed gives the same bits at any number of threads.
-DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed);
+load::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed);
 
 }  // namespace posevote

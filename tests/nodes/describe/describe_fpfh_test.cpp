@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "nodes/describe/pcl_surface.hpp"
+#include "nodes/adapters/pcl_surface.hpp"
 #include "tests/nodes/describe/described_body.hpp"
 
 using namespace posevote;
@@ -19,7 +19,7 @@ const std::string kNode = "describe_fpfh";
 TEST_CASE("FPFH equals PCL's own class", "[describe]") {
   const Cloud body = bumpy_cloud(2, kResolution);
   const FeatureSet ours = described(kNode, body, 1, {{"radius", "4"}});
-  const PclSurface surface = make_pcl_surface(body);
+  const adapters::PclSurface surface = adapters::make_pcl_surface(body);
   pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation;
   estimation.setInputCloud(surface.points);
   estimation.setInputNormals(surface.normals);

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "nodes/match/descriptor_index.hpp"
+#include "nodes/descriptors/descriptor_index.hpp"
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
@@ -39,7 +39,8 @@ inline double self_match_rate(const std::string& node, float noise,
     value += noise * (static_cast<float>(random()) / 2147483648.0F - 1);
   const FeatureSet body = described(node, bumpy_cloud(1, kResolution), 2, params);
   const FeatureSet found = described(node, copy, 5, params);
-  const auto nearest = DescriptorIndex({&body.descriptors}, {}).nearest_two(found.descriptors);
+  const auto nearest =
+      descriptors::DescriptorIndex({&body.descriptors}, {}).nearest_two(found.descriptors);
   double right = 0;
   for (std::size_t i = 0; i < nearest.size(); ++i)
     right += (body.points.row(nearest[i].row[0]) - found.points.row(static_cast<Eigen::Index>(i)))

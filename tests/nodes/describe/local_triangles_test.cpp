@@ -26,8 +26,8 @@ double area_of(const Cloud& cloud, const std::vector<std::array<int, 3>>& triang
 
 std::vector<std::array<int, 3>> triangles_of(const Cloud& cloud, float circumradius) {
   const FeaturePoints points{{0}};
-  return local_triangles(PclSupport(cloud, points, Scale{kResolution}, 4, 1),
-                         circumradius * kResolution);
+  return describe::local_triangles(adapters::PclSupport(cloud, points, Scale{kResolution}, 4, 1),
+                                   circumradius * kResolution);
 }
 
 }  // namespace

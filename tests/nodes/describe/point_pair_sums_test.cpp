@@ -17,24 +17,24 @@ namespace {
 constexpr Eigen::Index kPoints = 1000;
 
 struct Found {
-  PointPairSums sums{};
+  describe::PointPairSums sums{};
   int count = 0;
 };
 
 /// Of the first of many points in a ball of radius 1, every ninth of them without a normal.
 Found pairs() {
-  const auto rows = kPoints + static_cast<Eigen::Index>(kGridPadding);
+  const auto rows = kPoints + static_cast<Eigen::Index>(geometry::kGridPadding);
   const PointMatrix p = test::shaken(PointMatrix::Zero(rows, 3), 1);
   PointMatrix n = test::shaken(PointMatrix::Ones(rows, 3), 1);
   n.rowwise().normalize();
   for (Eigen::Index i = 5; i < kPoints; i += 9) n.row(i).setConstant(std::nanf(""));
   const Eigen::Vector3f point = p.row(0), normal = n.row(0);
-  const std::vector<GridRun> runs{{0, 700}, {700, 701}, {720, 1000}};
+  const std::vector<geometry::GridRun> runs{{0, 700}, {700, 701}, {720, 1000}};
   Found found;
-  found.count =
-      add_point_pairs({p.col(0).data(), p.col(1).data(), p.col(2).data(), n.col(0).data(),
-                       n.col(1).data(), n.col(2).data()},
-                      runs.data(), runs.size(), {point.data(), normal.data(), 1.5F, 0}, found.sums);
+  found.count = describe::add_point_pairs({p.col(0).data(), p.col(1).data(), p.col(2).data(),
+                                           n.col(0).data(), n.col(1).data(), n.col(2).data()},
+                                          runs.data(), runs.size(),
+                                          {point.data(), normal.data(), 1.5F, 0}, found.sums);
   return found;
 }
 
@@ -43,7 +43,7 @@ Found pairs() {
 TEST_CASE("each pair weighs one in the histogram of each angle", "[describe]") {
   const Found found = pairs();
   REQUIRE(found.count > 200);
-  for (int angle = 0; angle < PointPairSums::kAngles; ++angle) {
+  for (int angle = 0; angle < describe::PointPairSums::kAngles; ++angle) {
     double sum = 0;
     for (const auto& row : found.sums.sums)
       for (const auto& column : row[angle])

@@ -42,9 +42,9 @@ struct Format {
   std::function<void(std::string_view)> check;  ///< throws, or fails the test
 };
 
-std::function<void(std::string_view)> mesh_check(RawMesh (*read)(std::string_view)) {
+std::function<void(std::string_view)> mesh_check(load::RawMesh (*read)(std::string_view)) {
   return [read](std::string_view bytes) {
-    const Cloud cloud = to_cloud(read(bytes), 0.001);
+    const Cloud cloud = load::to_cloud(read(bytes), 0.001);
     REQUIRE(is_valid(cloud));
   };
 }
@@ -109,21 +109,21 @@ std::vector<Format> formats() {
   std::vector<std::uint16_t> depths;
   for (int i = 0; i < 80; ++i) depths.push_back(static_cast<std::uint16_t>(i * 701 % 5000));
   const auto png_check = [](std::string_view bytes) {
-    const DepthImage image = decode_depth_png(bytes);
+    const load::DepthImage image = load::decode_depth_png(bytes);
     REQUIRE(image.values.size() == image.width * image.height);
   };
-  return {{"ascii PLY", ply("ascii") + rows(4, 6) + faces, mesh_check(read_ply)},
-          {"little-endian PLY", binary_ply(std::endian::little), mesh_check(read_ply)},
-          {"big-endian PLY", binary_ply(std::endian::big), mesh_check(read_ply)},
-          {"ascii PCD", pcd("ascii") + rows(4, 6), mesh_check(read_pcd)},
-          {"binary PCD", pcd("binary") + floats(24), mesh_check(read_pcd)},
-          {"compressed PCD", compressed_pcd(), mesh_check(read_pcd)},
+  return {{"ascii PLY", ply("ascii") + rows(4, 6) + faces, mesh_check(load::read_ply)},
+          {"little-endian PLY", binary_ply(std::endian::little), mesh_check(load::read_ply)},
+          {"big-endian PLY", binary_ply(std::endian::big), mesh_check(load::read_ply)},
+          {"ascii PCD", pcd("ascii") + rows(4, 6), mesh_check(load::read_pcd)},
+          {"binary PCD", pcd("binary") + floats(24), mesh_check(load::read_pcd)},
+          {"compressed PCD", compressed_pcd(), mesh_check(load::read_pcd)},
           {"OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf -3 -2 -1\n",
-           mesh_check(read_obj)},
-          {"ascii STL", ascii_stl(), mesh_check(read_stl)},
-          {"binary STL", binary_stl(), mesh_check(read_stl)},
-          {"OFF", "OFF\n4 2 0\n" + rows(4, 3) + faces, mesh_check(read_off)},
-          {"NOFF", "NOFF\n4 2 0\n" + rows(4, 6) + faces, mesh_check(read_off)},
+           mesh_check(load::read_obj)},
+          {"ascii STL", ascii_stl(), mesh_check(load::read_stl)},
+          {"binary STL", binary_stl(), mesh_check(load::read_stl)},
+          {"OFF", "OFF\n4 2 0\n" + rows(4, 3) + faces, mesh_check(load::read_off)},
+          {"NOFF", "NOFF\n4 2 0\n" + rows(4, 6) + faces, mesh_check(load::read_off)},
           {"PNG", depth_png(10, 8, depths), png_check}};
 }
 

@@ -13,7 +13,7 @@ const std::string kPly =
     "property float z\nend_header\n1 2 3\n";
 
 std::string read_error(const std::filesystem::path& path) {
-  return error_of([&] { read_cloud(path, 1); });
+  return error_of([&] { load::read_cloud(path, 1); });
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ TEST_CASE("The extension chooses the reader", "[load]") {
                   "solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 1 2 3\n"
                   "vertex 1 2 3\nendloop\nendfacet\nendsolid\n")}) {
     INFO(path);
-    const Cloud cloud = read_cloud(path, 0.001);
+    const Cloud cloud = load::read_cloud(path, 0.001);
     REQUIRE(cloud.points.rows() == 1);
     CHECK(cloud.points.row(0).isApprox(Eigen::RowVector3f(0.001F, 0.002F, 0.003F)));
   }

@@ -8,7 +8,7 @@ using namespace posevote::test;
 namespace {
 
 std::string off_error(const std::string& bytes) {
-  return error_of([&] { read_off(bytes); });
+  return error_of([&] { load::read_off(bytes); });
 }
 
 const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
@@ -16,24 +16,25 @@ const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 }  // namespace
 
 TEST_CASE("OFF: counts, comments, polygons and face colours", "[load][off]") {
-  const RawMesh mesh = read_off("OFF # a square\n\n# counts\n4 2 0\n" + kSquare +
-                                "4 0 1 2 3 255 0 0 # red\n3 0 1 3\n");
+  const load::RawMesh mesh = load::read_off("OFF # a square\n\n# counts\n4 2 0\n" + kSquare +
+                                            "4 0 1 2 3 255 0 0 # red\n3 0 1 3\n");
   CHECK(mesh.points.size() == 4);
-  CHECK(mesh.points[2] == Triple{1, 1, 0});
+  CHECK(mesh.points[2] == load::Triple{1, 1, 0});
   REQUIRE(mesh.faces.size() == 3);
   CHECK(mesh.faces[1] == std::array<std::uint32_t, 3>{0, 2, 3});
 }
 
 TEST_CASE("OFF: the counts may stand in the keyword's line", "[load][off]") {
-  CHECK(read_off("OFF4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
-  CHECK(read_off("OFF 4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
+  CHECK(load::read_off("OFF4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
+  CHECK(load::read_off("OFF 4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
 }
 
 TEST_CASE("OFF: normals and colours", "[load][off]") {
-  const RawMesh normals = read_off("NOFF\n1 0 0\n1 2 3 0 0 1\n");
-  CHECK(normals.normals == std::vector<Triple>{{0, 0, 1}});
-  CHECK(read_off("COFF\n1 0 0\n1 2 3 255 0 0 255\n").points.size() == 1);
-  CHECK(read_off("CNOFF\n1 0\n1 2 3 0 1 0 255 0 0 255\n").normals[0] == Triple{0, 1, 0});
+  const load::RawMesh normals = load::read_off("NOFF\n1 0 0\n1 2 3 0 0 1\n");
+  CHECK(normals.normals == std::vector<load::Triple>{{0, 0, 1}});
+  CHECK(load::read_off("COFF\n1 0 0\n1 2 3 255 0 0 255\n").points.size() == 1);
+  CHECK(load::read_off("CNOFF\n1 0\n1 2 3 0 1 0 255 0 0 255\n").normals[0] ==
+        load::Triple{0, 1, 0});
 }
 
 TEST_CASE("OFF: damage", "[load][off]") {

@@ -14,7 +14,7 @@ using namespace posevote::test;
 namespace {
 
 std::string pcd_error(const std::string& bytes) {
-  return error_of([&] { read_pcd(bytes); });
+  return error_of([&] { load::read_pcd(bytes); });
 }
 
 std::string header(const std::string& points, const std::string& data) {
@@ -26,7 +26,7 @@ std::string header(const std::string& points, const std::string& data) {
 /// 200 points with normals and a padded row, as PCL writes them.
 struct PclCloud {
   pcl::PCLPointCloud2 cloud;
-  RawMesh expected;
+  load::RawMesh expected;
 
   PclCloud() {
     const std::vector<std::string> names{"x", "y", "rgb", "z", "normal_x", "normal_y", "normal_z"};
@@ -47,7 +47,7 @@ struct PclCloud {
     cloud.data.resize(std::size_t{kStep} * 200);
     std::mt19937 random(3);
     for (std::size_t i = 0; i < 200; ++i) {
-      Triple p, n;
+      load::Triple p, n;
       for (std::size_t k = 0; k < 3; ++k) {
         const float value = static_cast<float>(random() % 1000U) / 64.0F;
         p[k] = static_cast<double>(value);
@@ -88,10 +88,10 @@ TEST_CASE("PCD: what PCL writes is read, in all three encodings", "[load][pcd]")
   const PclCloud source;
   for (int kind = 0; kind < 3; ++kind) {
     const std::string bytes = write_with_pcl(source, kind);
-    const RawMesh mesh = read_pcd(bytes);
+    const load::RawMesh mesh = load::read_pcd(bytes);
     CHECK(mesh.points == source.expected.points);
     CHECK(mesh.normals == source.expected.normals);
-    CHECK(mesh.viewpoint == Triple{0.5, -1, 2});
+    CHECK(mesh.viewpoint == load::Triple{0.5, -1, 2});
   }
 }
 
@@ -101,8 +101,9 @@ TEST_CASE("PCD: PCL's binary files cut off anywhere are an error", "[load][pcd]"
     const std::string whole = write_with_pcl(source, kind);
     const std::size_t body = whole.find('\n', whole.find("DATA")) + 1;
     // PCL pads its files with zeros: the data ends before the file does.
-    const std::size_t end = body + (kind == 1 ? 200 * source.cloud.point_step
-                                              : 8 + load_bytes<std::uint32_t>(whole.data() + body));
+    const std::size_t end =
+        body + (kind == 1 ? 200 * source.cloud.point_step
+                          : 8 + load::load_bytes<std::uint32_t>(whole.data() + body));
     REQUIRE(end <= whole.size());
     for (std::size_t size = 0; size < end; size += size < 500 ? 1 : 37)
       CHECK(pcd_error(whole.substr(0, size)) != "(no error)");
@@ -112,11 +113,11 @@ TEST_CASE("PCD: PCL's binary files cut off anywhere are an error", "[load][pcd]"
 }
 
 TEST_CASE("PCD: ascii with any types, fields of several values and padding", "[load][pcd]") {
-  const RawMesh mesh = read_pcd(
+  const load::RawMesh mesh = load::read_pcd(
       "VERSION .5\nFIELDS histogram x _ y z\nSIZE 4 8 1 2 1\nTYPE F F U I U\nCOUNT 3 1 2 1 1\n"
       "POINTS 2\nDATA ascii\n9 9 9 1.5 0 0 -2 3\n9 9 9 nan 0 0 5 6\n");
   REQUIRE(mesh.points.size() == 2);
-  CHECK(mesh.points[0] == Triple{1.5, -2, 3});
+  CHECK(mesh.points[0] == load::Triple{1.5, -2, 3});
   CHECK(std::isnan(mesh.points[1][0]));
   CHECK(mesh.normals.empty());
 }
@@ -132,7 +133,7 @@ double read_x(T value, char type) {
   append(bytes, value);
   append(bytes, 1.0F);
   append(bytes, 2.0F);
-  const RawMesh mesh = read_pcd(bytes);
+  const load::RawMesh mesh = load::read_pcd(bytes);
   REQUIRE(mesh.points.size() == 1);
   CHECK(mesh.points[0][1] == 1);
   CHECK(mesh.points[0][2] == 2);
@@ -158,11 +159,11 @@ TEST_CASE("PCD: compressed data goes field by field, without padding fields", "[
   std::string plain;
   for (const float value : {1.0F, 2.0F, 3.0F, 4.0F}) append(plain, value);         // x, x, y, y
   for (const int value : {5, 6}) append(plain, static_cast<std::int16_t>(value));  // z, z
-  const RawMesh mesh = read_pcd(
+  const load::RawMesh mesh = load::read_pcd(
       "FIELDS x _ y z\nSIZE 4 1 4 2\nTYPE F U F I\nCOUNT 1 8 1 1\nPOINTS 2\n"
       "DATA binary_compressed\n" +
       lzf_block(plain));
-  CHECK(mesh.points == std::vector<Triple>{{1, 3, 5}, {2, 4, 6}});
+  CHECK(mesh.points == std::vector<load::Triple>{{1, 3, 5}, {2, 4, 6}});
 }
 
 TEST_CASE("PCD: lying counts are refused before they are believed", "[load][pcd]") {

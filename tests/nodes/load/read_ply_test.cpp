@@ -13,7 +13,7 @@ using namespace posevote::test;
 namespace {
 
 std::string ply_error(const std::string& bytes) {
-  return error_of([&] { read_ply(bytes); });
+  return error_of([&] { load::read_ply(bytes); });
 }
 
 std::string vertex_header(const std::string& count, const std::string& format = "ascii") {
@@ -26,7 +26,7 @@ const std::string kFaces = "element face 1\nproperty list uchar int vertex_indic
 /// A vertex row with a value of every type, a list in the middle and the coordinates out of order;
 /// an element nobody knows before the vertices; faces with a list and a scalar beside the indices.
 struct MixedFile {
-  std::vector<Triple> points;
+  std::vector<load::Triple> points;
   std::string header, body;
 
   explicit MixedFile(std::endian order) {
@@ -48,8 +48,8 @@ struct MixedFile {
       append(body, 2.5, order);
     }
     for (int i = 0; i < 40; ++i) {
-      const Triple p{static_cast<float>(draw(1000)) / 7.0F, static_cast<double>(draw(100) - 50),
-                     draw(1000) / 3.0};
+      const load::Triple p{static_cast<float>(draw(1000)) / 7.0F,
+                           static_cast<double>(draw(100) - 50), draw(1000) / 3.0};
       points.push_back(p);
       append<std::int8_t>(body, -3);
       append(body, p[2], order);
@@ -74,18 +74,18 @@ struct MixedFile {
 }  // namespace
 
 TEST_CASE("PLY: ascii points, normals and polygons", "[load][ply]") {
-  const RawMesh mesh = read_ply(
+  const load::RawMesh mesh = load::read_ply(
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float nz\nproperty float x\n"
       "property float y\nproperty uchar red\nproperty float z\nproperty float nx\n"
       "property float ny\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
       "0.5 1 2 255 3 6 7\n0.5 +1e1 -2.5E-1 0 .5 6 7\n0.5 nan inf 0 -inf 6 7\n"
       "\n0.5 4 4 0 4 6 7 \n0.5 5 5 0 5 6 7\t\r\n4 0 1 3 4\n3 4 3 0");
   REQUIRE(mesh.points.size() == 5);
-  CHECK(mesh.points[0] == Triple{1, 2, 3});
-  CHECK(mesh.points[1] == Triple{10, -0.25, 0.5});
+  CHECK(mesh.points[0] == load::Triple{1, 2, 3});
+  CHECK(mesh.points[1] == load::Triple{10, -0.25, 0.5});
   CHECK(std::isnan(mesh.points[2][0]));
   CHECK(mesh.points[2][2] == -HUGE_VAL);
-  CHECK(mesh.normals[4] == Triple{6, 7, 0.5});
+  CHECK(mesh.normals[4] == load::Triple{6, 7, 0.5});
   REQUIRE(mesh.faces.size() == 3);
   CHECK(mesh.faces[1] == std::array<std::uint32_t, 3>{0, 3, 4});
   CHECK(mesh.faces[2] == std::array<std::uint32_t, 3>{4, 3, 0});
@@ -94,7 +94,7 @@ TEST_CASE("PLY: ascii points, normals and polygons", "[load][ply]") {
 TEST_CASE("PLY: binary of both orders, any types, extra elements and lists", "[load][ply]") {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const MixedFile file(order);
-    const RawMesh mesh = read_ply(file.header + file.body);
+    const load::RawMesh mesh = load::read_ply(file.header + file.body);
     CHECK(mesh.points == file.points);
     CHECK(mesh.normals.empty());
     REQUIRE(mesh.faces.size() == 20);
@@ -107,7 +107,7 @@ TEST_CASE("PLY: coordinates of every type", "[load][ply]") {
     std::string bytes = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty " + type +
                         " x\nproperty char y\nproperty char z\nend_header\n";
     append(bytes, value, std::endian::big);
-    const RawMesh mesh = read_ply(bytes + "ab");
+    const load::RawMesh mesh = load::read_ply(bytes + "ab");
     REQUIRE(mesh.points.size() == 1);
     CHECK(mesh.points[0][2] == 'b');
     return mesh.points[0][0];
@@ -130,21 +130,22 @@ TEST_CASE("PLY: binary cut off anywhere is an error", "[load][ply]") {
   CHECK_THAT(ply_error(whole.substr(0, whole.size() - 3)), has("within face 20 of 20"));
   CHECK_THAT(ply_error(whole.substr(0, whole.size() - 3)),
              has("ends at byte " + std::to_string(whole.size() - 3)));
-  CHECK(read_ply(whole + "\n").points.size() == 40);
+  CHECK(load::read_ply(whole + "\n").points.size() == 40);
   CHECK_THAT(ply_error(whole + "abc"), has("3 bytes more"));
 }
 
 TEST_CASE("PLY: faces before vertices, faces without indices, no faces", "[load][ply]") {
-  const RawMesh early =
-      read_ply("ply\nformat ascii 1.0\n" + kFaces +
-               "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-               "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n");
+  const load::RawMesh early =
+      load::read_ply("ply\nformat ascii 1.0\n" + kFaces +
+                     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                     "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n");
   CHECK(early.faces.size() == 1);
   CHECK(early.points.size() == 3);
-  const RawMesh none =
-      read_ply(vertex_header("1") + "element face 1\nproperty uchar red\nend_header\n1 2 3\n255\n");
+  const load::RawMesh none = load::read_ply(
+      vertex_header("1") + "element face 1\nproperty uchar red\nend_header\n1 2 3\n255\n");
   CHECK(none.faces.empty());
-  const RawMesh line = read_ply(vertex_header("2") + kFaces + "end_header\n1 2 3\n4 5 6\n2 0 1\n");
+  const load::RawMesh line =
+      load::read_ply(vertex_header("2") + kFaces + "end_header\n1 2 3\n4 5 6\n2 0 1\n");
   CHECK(line.faces.empty());
 }
 
@@ -173,7 +174,7 @@ TEST_CASE("PLY: what is not one says so", "[load][ply]") {
 TEST_CASE("PLY: a count the file cannot hold is refused before it is believed", "[load][ply]") {
   CHECK_THAT(ply_error(vertex_header("4000000000") + "end_header\n1 2 3\n4 5 6\n"),
              has("claims 4000000000 vertices, the file has room for at most 2"));
-  CHECK(read_ply(vertex_header("1") + "end_header\n1 2 3").points.size() == 1);  // just room
+  CHECK(load::read_ply(vertex_header("1") + "end_header\n1 2 3").points.size() == 1);  // just room
   const std::string three(36, '\0');
   CHECK_THAT(ply_error(vertex_header("4", "binary_little_endian") + "end_header\n" + three),
              has("claims 4 vertices, the file has room for at most 3"));
@@ -220,7 +221,7 @@ TEST_CASE("PLY: the laser scan rs1", "[load][ply]") {
     WARN("skipped: no " << scene);
     return;
   }
-  const Cloud cloud = read_cloud(scene, 0.001);
+  const Cloud cloud = load::read_cloud(scene, 0.001);
   CHECK(is_valid(cloud));
   CHECK(cloud.points.rows() == 114373);
   CHECK(cloud.normals.rows() == 114373);

@@ -10,7 +10,7 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 
 std::string stl_error(const std::string& bytes) {
-  return error_of([&] { read_stl(bytes); });
+  return error_of([&] { load::read_stl(bytes); });
 }
 
 /// Two triangles that share an edge.
@@ -41,8 +41,8 @@ TEST_CASE("STL: faces share the vertices at the same place", "[load][stl]") {
        {binary_square(), binary_square("solid but binary"), binary_square() + "\n",
         "solid a square\n" + kFacet + kOther + "endsolid a square\n",
         "solid one\n" + kFacet + "endsolid one\nsolid two\n" + kOther + "endsolid\n"}) {
-    const RawMesh mesh = read_stl(bytes);
-    CHECK(mesh.points == std::vector<Triple>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    const load::RawMesh mesh = load::read_stl(bytes);
+    CHECK(mesh.points == std::vector<load::Triple>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     REQUIRE(mesh.faces.size() == 2);
     CHECK(mesh.faces[0] == Face{0, 1, 2});
     CHECK(mesh.faces[1] == Face{0, 2, 3});

@@ -9,7 +9,7 @@ using namespace posevote::test;
 namespace {
 
 double number(const std::string& text) {
-  TextScanner in(text);
+  load::TextScanner in(text);
   REQUIRE(in.next_line());
   const double value = in.number();
   CHECK(in.line_done());
@@ -41,7 +41,7 @@ TEST_CASE("What is no number is an error", "[load][text]") {
 }
 
 TEST_CASE("Lines are counted, blank ones and comments skipped", "[load][text]") {
-  TextScanner in("\r\n# one\n a b # c\n\n \nlast", '#');
+  load::TextScanner in("\r\n# one\n a b # c\n\n \nlast", '#');
   REQUIRE(in.next_line());
   CHECK(in.line() == 3);
   CHECK(in.word() == "a");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nodes/data/files.hpp"
-#include "nodes/match/descriptor_index.hpp"
+#include "nodes/descriptors/descriptor_index.hpp"
 #include "tests/support/run_node.hpp"
 
 namespace posevote::test {

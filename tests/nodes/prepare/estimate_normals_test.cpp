@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "nodes/data/features.hpp"
+#include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/plane_normals.hpp"
+#include "nodes/geometry/winding.hpp"
 #include "nodes/load/read_cloud.hpp"
-#include "nodes/prepare/normals.hpp"
-#include "nodes/prepare/plane_normals.hpp"
-#include "nodes/prepare/winding.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
@@ -62,8 +62,8 @@ TEST_CASE("estimate_normals finds those of a sphere, toward the sensor", "[prepa
 }
 
 TEST_CASE("estimate_normals widens its neighbourhoods with the noise", "[prepare]") {
-  CHECK(suitable_planes(sphere_scan().points, 0.0045F, 3)->radius() < 0.006F);
-  CHECK(suitable_planes(sphere_scan(0.0075F).points, 0.0045F, 3)->radius() > 0.010F);
+  CHECK(geometry::suitable_planes(sphere_scan().points, 0.0045F, 3)->radius() < 0.006F);
+  CHECK(geometry::suitable_planes(sphere_scan(0.0075F).points, 0.0045F, 3)->radius() > 0.010F);
   CHECK(error_of(oriented(sphere_scan(0.0025F))) < 5);
   CHECK(error_of(oriented(sphere_scan(0.0075F))) < 9);
 }
@@ -169,11 +169,12 @@ TEST_CASE("estimate_normals on the Bunny with 3 % noise", "[prepare]") {
     WARN("skipped: no " << file);
     return;
   }
-  Cloud scan = read_cloud(file, 1);
-  const PointMatrix truth = face_normals(scan.points, wind_outward(scan.points, scan.faces));
+  Cloud scan = load::read_cloud(file, 1);
+  const PointMatrix truth =
+      geometry::face_normals(scan.points, geometry::wind_outward(scan.points, scan.faces));
   scan.points = test::shaken(scan.points, 0.0075F);
   scan.normals = truth;  // carried along to tell which points remain; not used
-  const PointMatrix planes = suitable_planes(scan.points, 0.0045F, 6)->normals(5);
+  const PointMatrix planes = geometry::suitable_planes(scan.points, 0.0045F, 6)->normals(5);
   double sum = 0;
   int count = 0;
   for (Eigen::Index i = 0; i < truth.rows(); ++i) {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <set>
 
-#include "nodes/prepare/plane_fit.hpp"
-#include "nodes/prepare/plane_normals.hpp"
+#include "nodes/geometry/plane_fit.hpp"
+#include "nodes/geometry/plane_normals.hpp"
 #include "tests/support/shapes.hpp"
 
 using namespace posevote;
@@ -47,7 +47,7 @@ float ball_and_wall(float x, float y) {
 }
 
 PointMatrix normals_of(const Cloud& scan) {
-  const auto normals = image_normals(scan, kRadius, 6, 5);
+  const auto normals = prepare::image_normals(scan, kRadius, 6, 5);
   REQUIRE(normals);
   REQUIRE(normals->rows() == scan.points.rows());
   return *normals;
@@ -80,7 +80,7 @@ TEST_CASE("image_normals agrees with planes by search, noise and holes included"
   });
   const PointMatrix noise = test::shaken(PointMatrix::Zero(scan.points.rows(), 3), 0.001F);
   scan.points.array().colwise() *= 1 + noise.col(0).array();  // along the rays
-  const PointMatrix by_search = suitable_planes(scan.points, kRadius, 6)->normals(5);
+  const PointMatrix by_search = geometry::suitable_planes(scan.points, kRadius, 6)->normals(5);
   const PointMatrix by_pixels = normals_of(scan);
   std::ptrdiff_t alike = 0;
   for (Eigen::Index i = 0; i < by_pixels.rows(); ++i)
@@ -113,7 +113,7 @@ TEST_CASE("image_normals does not mind the order of the points", "[prepare]") {
 TEST_CASE("image_normals leaves to others what is no image, or too fine", "[prepare]") {
   const Cloud scan = image_of(ball_and_wall);
   const auto refused = [](Cloud other, float radius = kRadius) {
-    return !image_normals(other, radius, 6, 5);
+    return !prepare::image_normals(other, radius, 6, 5);
   };
   CHECK(!refused(scan));
   CHECK(refused(scan, 0.1F));  // 70 pixels
@@ -137,20 +137,20 @@ TEST_CASE("image_normals leaves near ground before a far one to others", "[prepa
       return static_cast<int>(1000 * (x + 1)) % 10 < of_ten ? 0.06F : 3.0F;
     });
   };
-  CHECK(!image_normals(with_near(4), kRadius, 6, 5));  // thousands of pixels a window
-  CHECK(image_normals(with_near(0), kRadius, 6, 5));
+  CHECK(!prepare::image_normals(with_near(4), kRadius, 6, 5));  // thousands of pixels a window
+  CHECK(prepare::image_normals(with_near(0), kRadius, 6, 5));
 }
 
 TEST_CASE("samples follow no columns", "[prepare]") {
-  const std::vector<std::size_t> sample = sample_of(std::size_t{1280} * 1000);
+  const std::vector<std::size_t> sample = geometry::sample_of(std::size_t{1280} * 1000);
   REQUIRE(sample.size() >= 1000);
   std::set<std::size_t> columns;
   for (const std::size_t i : sample) columns.insert(i % 1280);
   CHECK(columns.size() > 500);
   CHECK(std::is_sorted(sample.begin(), sample.end()));
   CHECK(sample.back() < std::size_t{1280} * 1000);
-  CHECK(sample_of(3) == std::vector<std::size_t>{0, 1, 2});
-  CHECK(sample_of(0).empty());
+  CHECK(geometry::sample_of(3) == std::vector<std::size_t>{0, 1, 2});
+  CHECK(geometry::sample_of(0).empty());
 }
 
 TEST_CASE("image_normals takes points that are not finite, and those right before the camera",

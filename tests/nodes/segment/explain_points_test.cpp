@@ -15,8 +15,9 @@ constexpr float kDistance = 3 * kResolution;
 
 std::vector<char> explain(const Placed& body, const Cloud& scan) {
   const Cloud model = bumpy_model(body.shape)->cloud;
-  const PointGrid grid(model.points, kDistance);
-  return explain_points(model, grid, body.T_scene_model, scan.points, scan.normals, kDistance);
+  const geometry::PointGrid grid(model.points, kDistance);
+  return segment::explain_points(model, grid, body.T_scene_model, scan.points, scan.normals,
+                                 kDistance);
 }
 
 }  // namespace
@@ -52,10 +53,10 @@ TEST_CASE("of a thin wall the far side does not stand before the near one", "[se
   PointMatrix point(1, 3), normal(1, 3);
   point << 0, 0, 0.002F;
   normal << 0, 0, -1;
-  const PointGrid grid(sheet.points, kDistance);
+  const geometry::PointGrid grid(sheet.points, kDistance);
   const auto identity = Eigen::Isometry3d::Identity();
-  CHECK(explain_points(sheet, grid, identity, point, normal, kDistance).front() == 1);
-  CHECK(explain_points(sheet, grid, identity, point, normal, 0.0015F).front() == 0);
+  CHECK(segment::explain_points(sheet, grid, identity, point, normal, kDistance).front() == 1);
+  CHECK(segment::explain_points(sheet, grid, identity, point, normal, 0.0015F).front() == 0);
 }
 
 TEST_CASE("points that are not finite are never explained", "[segment]") {

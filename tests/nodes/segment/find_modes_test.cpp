@@ -20,9 +20,9 @@ VoteSet votes_at(const std::vector<float>& x) {
   return votes;
 }
 
-std::vector<PoseMode> modes_of(const VoteSet& votes) {
-  std::vector<PoseMode> modes;
-  for (std::uint32_t v = 0; v < votes.tx.size(); ++v) modes.push_back(vote_pose(votes, v));
+std::vector<segment::PoseMode> modes_of(const VoteSet& votes) {
+  std::vector<segment::PoseMode> modes;
+  for (std::uint32_t v = 0; v < votes.tx.size(); ++v) modes.push_back(segment::vote_pose(votes, v));
   return modes;
 }
 
@@ -32,33 +32,35 @@ const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 TEST_CASE("each correspondence gives its best vote, the densest first", "[segment]") {
   const VoteSet votes = votes_at({0, 1, 2, 3, 4, 5, 6, 7});
-  CHECK(best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}, 0) == std::vector<std::uint32_t>{2, 1, 6});
+  CHECK(segment::best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}, 0) ==
+        std::vector<std::uint32_t>{2, 1, 6});
 }
 
 TEST_CASE("of equal votes the first is the best", "[segment]") {
-  CHECK(best_votes(votes_at({0, 1, 2, 3}), {3, 3, 5, 5}, 0) == std::vector<std::uint32_t>{2, 0});
+  CHECK(segment::best_votes(votes_at({0, 1, 2, 3}), {3, 3, 5, 5}, 0) ==
+        std::vector<std::uint32_t>{2, 0});
 }
 
 TEST_CASE("no votes have no modes", "[segment]") {
-  CHECK(best_votes(VoteSet{}, {}, 0).empty());
-  CHECK(best_votes(votes_at({}), {}, 0).empty());
-  CHECK(separate_modes({}, {1, 1, 3}, 9).empty());
-  CHECK(runner_up_density(votes_at({}), {}, kOrigin, 1.0F) == 0);
+  CHECK(segment::best_votes(VoteSet{}, {}, 0).empty());
+  CHECK(segment::best_votes(votes_at({}), {}, 0).empty());
+  CHECK(segment::separate_modes({}, {1, 1, 3}, 9).empty());
+  CHECK(segment::runner_up_density(votes_at({}), {}, kOrigin, 1.0F) == 0);
 }
 
 TEST_CASE("votes below the threshold are no modes", "[segment]") {
   const VoteSet votes = votes_at({0, 1, 2, 3});
-  CHECK(best_votes(votes, {1, 2, 3, 4}, 3) == std::vector<std::uint32_t>{3});
-  CHECK(best_votes(votes, {1, 2, 3, 4}, 2) == std::vector<std::uint32_t>{3, 1});
+  CHECK(segment::best_votes(votes, {1, 2, 3, 4}, 3) == std::vector<std::uint32_t>{3});
+  CHECK(segment::best_votes(votes, {1, 2, 3, 4}, 2) == std::vector<std::uint32_t>{3, 1});
 }
 
 TEST_CASE("non-maximum suppression leaves out what lies within the distance", "[segment]") {
-  const std::vector<PoseMode> modes = modes_of(votes_at({0, 0.5F, 1.5F, 3}));
+  const std::vector<segment::PoseMode> modes = modes_of(votes_at({0, 0.5F, 1.5F, 3}));
   using Numbers = std::vector<std::size_t>;
-  CHECK(separate_modes(modes, {1.0F, 1, 3}, 9) == Numbers{0, 2, 3});
-  CHECK(separate_modes(modes, {1.5F, 1, 3}, 9) == Numbers{0, 3});
-  CHECK(separate_modes(modes, {0.1F, 1, 3}, 9) == Numbers{0, 1, 2, 3});
-  CHECK(separate_modes(modes, {0.1F, 1, 3}, 2) == Numbers{0, 1});
+  CHECK(segment::separate_modes(modes, {1.0F, 1, 3}, 9) == Numbers{0, 2, 3});
+  CHECK(segment::separate_modes(modes, {1.5F, 1, 3}, 9) == Numbers{0, 3});
+  CHECK(segment::separate_modes(modes, {0.1F, 1, 3}, 9) == Numbers{0, 1, 2, 3});
+  CHECK(segment::separate_modes(modes, {0.1F, 1, 3}, 2) == Numbers{0, 1});
 }
 
 TEST_CASE("a place may be judged in some quite different rotations", "[segment]") {
@@ -72,15 +74,16 @@ TEST_CASE("a place may be judged in some quite different rotations", "[segment]"
   }
   using Numbers = std::vector<std::size_t>;
   const float sixty = 1.0471976F;
-  CHECK(separate_modes(modes_of(votes), {1.0F, sixty, 3}, 9) == Numbers{0, 2, 4});
-  CHECK(separate_modes(modes_of(votes), {1.0F, sixty, 9}, 9) == Numbers{0, 2, 4, 5});
-  CHECK(separate_modes(modes_of(votes), {1.0F, sixty / 2, 9}, 9) == Numbers{0, 1, 2, 3, 4, 5});
+  CHECK(segment::separate_modes(modes_of(votes), {1.0F, sixty, 3}, 9) == Numbers{0, 2, 4});
+  CHECK(segment::separate_modes(modes_of(votes), {1.0F, sixty, 9}, 9) == Numbers{0, 2, 4, 5});
+  CHECK(segment::separate_modes(modes_of(votes), {1.0F, sixty / 2, 9}, 9) ==
+        Numbers{0, 1, 2, 3, 4, 5});
 }
 
 TEST_CASE("the runner-up is the densest vote elsewhere", "[segment]") {
   const VoteSet votes = votes_at({0, 0.5F, 2, 3});
   const std::vector<double> density{9, 8, 4, 5};
-  CHECK(runner_up_density(votes, density, kOrigin, 1.0F) == 5);
-  CHECK(runner_up_density(votes, density, kOrigin, 0.4F) == 8);
-  CHECK(runner_up_density(votes, density, kOrigin, 4.0F) == 0);
+  CHECK(segment::runner_up_density(votes, density, kOrigin, 1.0F) == 5);
+  CHECK(segment::runner_up_density(votes, density, kOrigin, 0.4F) == 8);
+  CHECK(segment::runner_up_density(votes, density, kOrigin, 4.0F) == 0);
 }

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "nodes/vote/pose_index.hpp"
+#include "nodes/density/pose_index.hpp"
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
@@ -26,7 +26,7 @@ Scene make_scene() {
   scene.features = features_of(scan, 12);
   scene.matches = match_truly(bumpy_model(1), scene.features, {body}, 0.5, 30);
   scene.votes = run_node<VoteSet>("cast_votes", {}, scene.matches, scene.features);
-  const auto index = std::make_shared<PoseIndex>(scene.votes, Bandwidth{});
+  const auto index = std::make_shared<density::PoseIndex>(scene.votes, density::Bandwidth{});
   scene.density = {index->densities(), index};
   return scene;
 }
@@ -46,18 +46,18 @@ std::vector<double> voted_anew(const VoteSet& all, const std::vector<char>& aliv
   rest.qw = column(all.qw), rest.qx = column(all.qx), rest.qy = column(all.qy);
   rest.qz = column(all.qz);
   rest.scene_feature.assign(rest.tx.size(), 0);
-  return PoseIndex(rest, Bandwidth{}).densities();
+  return density::PoseIndex(rest, density::Bandwidth{}).densities();
 }
 
 }  // namespace
 
 TEST_CASE("what is explained step by step leaves the densities of voting anew", "[segment]") {
   const Scene scene = make_scene();
-  LiveVotes object = all_votes(scene.votes, scene.density);
+  segment::LiveVotes object = segment::all_votes(scene.votes, scene.density);
   std::vector<char> explained(static_cast<std::size_t>(scene.features.points.rows()), 0);
   for (const std::size_t every : {7U, 3U, 2U}) {
     for (std::size_t i = 0; i < explained.size(); i += every) explained[i] = 1;
-    remove_explained(object, explained);
+    segment::remove_explained(object, explained);
     const std::vector<double> expected = voted_anew(scene.votes, object.alive);
     REQUIRE(!expected.empty());
     std::vector<double> left;
@@ -76,9 +76,9 @@ TEST_CASE("what is explained step by step leaves the densities of voting anew", 
 
 TEST_CASE("all explained leaves nothing", "[segment]") {
   const Scene scene = make_scene();
-  LiveVotes object = all_votes(scene.votes, scene.density);
-  remove_explained(object,
-                   std::vector<char>(static_cast<std::size_t>(scene.features.points.rows()), 1));
+  segment::LiveVotes object = segment::all_votes(scene.votes, scene.density);
+  segment::remove_explained(
+      object, std::vector<char>(static_cast<std::size_t>(scene.features.points.rows()), 1));
   for (const double density : object.density) CHECK(density == 0);
 }
 
@@ -86,12 +86,13 @@ TEST_CASE("inputs that do not belong together are refused", "[segment]") {
   const Scene scene = make_scene();
   const auto features = static_cast<std::size_t>(scene.features.points.rows());
   const auto check = [features](const VoteSet& votes, const VoteDensity& density) {
-    check_votes({{std::make_shared<const VoteSet>(votes)}},
-                {{std::make_shared<const VoteDensity>(density)}}, features);
+    segment::check_votes({{std::make_shared<const VoteSet>(votes)}},
+                         {{std::make_shared<const VoteDensity>(density)}}, features);
   };
   CHECK_NOTHROW(check(scene.votes, scene.density));
-  CHECK_THROWS_AS(check_votes({{std::make_shared<const VoteSet>(scene.votes)}}, {}, features),
-                  std::runtime_error);
+  CHECK_THROWS_AS(
+      segment::check_votes({{std::make_shared<const VoteSet>(scene.votes)}}, {}, features),
+      std::runtime_error);
   VoteSet broken = scene.votes;
   broken.qz.pop_back();
   CHECK_THROWS_WITH(check(broken, scene.density), Catch::Contains("bumpy1"));

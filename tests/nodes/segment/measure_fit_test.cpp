@@ -14,11 +14,11 @@ namespace {
 constexpr float kTolerance = 2 * kResolution;
 constexpr float kReach = 2.5F * kTolerance;
 
-Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_scene_model) {
-  const RangeView view(scan, kResolution);
-  const ScanSurface surface(scan, view.usable(), kTolerance);
-  const Outline outline = outline_of(model, kReach);
-  return measure_fit(model, outline, surface, view, T_scene_model, kTolerance);
+segment::Fit fit_of(const Cloud& model, const Cloud& scan, const Eigen::Isometry3d& T_scene_model) {
+  const geometry::RangeView view(scan, kResolution);
+  const geometry::ScanSurface surface(scan, view.usable(), kTolerance);
+  const Outline outline = geometry::outline_of(model, kReach);
+  return segment::measure_fit(model, outline, surface, view, T_scene_model, kTolerance);
 }
 
 const Placed kBody{1, pose(0, 0.02, 0.8, 0.7)};
@@ -26,27 +26,27 @@ const Placed kBody{1, pose(0, 0.02, 0.8, 0.7)};
 }  // namespace
 
 TEST_CASE("at the true pose nearly all that faces the sensor is supported", "[segment]") {
-  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({kBody}), kBody.T_scene_model);
+  const segment::Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({kBody}), kBody.T_scene_model);
   CHECK(fit.facing > 1000);
   CHECK(fit.inlier_fraction > 0.9);
   CHECK(fit.contradicted == 0);
   CHECK(fit.rmse < 0.1 * kResolution);
-  CHECK(fit_score(fit) > 0.9);
+  CHECK(segment::fit_score(fit) > 0.9);
 }
 
 TEST_CASE("named points weigh what they say of a pose", "[segment]") {
   const Cloud model = bumpy_model(1)->cloud;
   const Cloud scan = scan_of({kBody});
-  const RangeView view(scan, kResolution);
-  const ScanSurface surface(scan, view.usable(), kTolerance);
+  const geometry::RangeView view(scan, kResolution);
+  const geometry::ScanSurface surface(scan, view.usable(), kTolerance);
   std::vector<std::uint32_t> all(static_cast<std::size_t>(model.points.rows()));
   std::iota(all.begin(), all.end(), 0);
   const auto weigh = [&](const Eigen::Isometry3d& T, const std::vector<std::uint32_t>& points) {
-    return weigh_points(model, points, surface, view, T, kTolerance);
+    return segment::weigh_points(model, points, surface, view, T, kTolerance);
   };
   for (const Eigen::Isometry3d& T : {kBody.T_scene_model, pose(0.03, 0, 0.8, 0)}) {
-    const Fit fit = fit_of(model, scan, T);
-    const Evidence evidence = weigh(T, all);
+    const segment::Fit fit = fit_of(model, scan, T);
+    const segment::Evidence evidence = weigh(T, all);
     const auto count = [](std::size_t n) { return static_cast<double>(n); };
     CHECK(evidence.sides == fit.facing - fit.hidden);
     CHECK(evidence.balance == count(fit.supported) - count(fit.contradicted) -
@@ -57,30 +57,31 @@ TEST_CASE("named points weigh what they say of a pose", "[segment]") {
 
 TEST_CASE("a body before what was measured is contradicted", "[segment]") {
   const Eigen::Isometry3d before = pose(0, 0, 1.0, 0.7);
-  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), before);
+  const segment::Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), before);
   CHECK(fit.contradicted == fit.facing);
-  CHECK(fit_score(fit) == 0);
+  CHECK(segment::fit_score(fit) == 0);
 }
 
 TEST_CASE("a body behind what was measured is hidden", "[segment]") {
-  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), pose(0, 0, 1.5, 0.7));
+  const segment::Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), pose(0, 0, 1.5, 0.7));
   CHECK(fit.hidden == fit.facing);
-  CHECK(fit_score(fit) == 0);
+  CHECK(segment::fit_score(fit) == 0);
 }
 
 TEST_CASE("a body where nothing was measured is unseen", "[segment]") {
-  const Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({kBody}, false), pose(0.5, 0, 0.8, 0));
+  const segment::Fit fit =
+      fit_of(bumpy_model(1)->cloud, scan_of({kBody}, false), pose(0.5, 0, 0.8, 0));
   CHECK(fit.unseen == fit.facing);
-  CHECK(fit_score(fit) == 0);
+  CHECK(segment::fit_score(fit) == 0);
 }
 
 TEST_CASE("beside the image nobody looked, if it is known where the image ends", "[segment]") {
   Cloud scan = scan_of({kBody}, false);
   const Eigen::Isometry3d beside = pose(0.5, 0, 0.8, 0.7);
-  const Fit unknown = fit_of(bumpy_model(1)->cloud, scan, beside);
+  const segment::Fit unknown = fit_of(bumpy_model(1)->cloud, scan, beside);
   CHECK(unknown.unseen == unknown.facing);
   scan.image = Eigen::AlignedBox2f(Eigen::Vector2f(-0.3F, -0.3F), Eigen::Vector2f(0.3F, 0.3F));
-  const Fit known = fit_of(bumpy_model(1)->cloud, scan, beside);
+  const segment::Fit known = fit_of(bumpy_model(1)->cloud, scan, beside);
   CHECK(known.facing == unknown.facing);
   CHECK(known.hidden == known.facing);
 }
@@ -93,9 +94,10 @@ TEST_CASE("a body cut off by the image's border agrees with the scan", "[segment
   Cloud scan;
   scan.points = whole.points(left, Eigen::all);
   scan.normals = whole.normals(left, Eigen::all);
-  const double unknown = fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
+  const double unknown =
+      segment::fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
   scan.image = Eigen::AlignedBox2f(Eigen::Vector2f(-0.3F, -0.3F), Eigen::Vector2f(0, 0.3F));
-  const double known = fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
+  const double known = segment::fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
   CHECK(unknown < 0.75);
   CHECK(known > 0.85);
 }
@@ -104,7 +106,7 @@ TEST_CASE("a surface that looks elsewhere supports nothing", "[segment]") {
   Cloud scan = scan_of({kBody});
   for (Eigen::Index i = 0; i < scan.normals.rows(); ++i)
     scan.normals.row(i) = Eigen::RowVector3f(1, 0, -0.2F).normalized();
-  const Fit fit = fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model);
+  const segment::Fit fit = fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model);
   CHECK(fit.mismatched > fit.supported);
 }
 
@@ -112,32 +114,32 @@ TEST_CASE("hidden parts cost a true pose little, a wrong pose scores far less", 
   const Placed before{3, pose(0.03, 0.03, 0.6, 0.2)};
   const Cloud scan = scan_of({kBody, before});
   const Cloud model = bumpy_model(1)->cloud;
-  const Fit fit = fit_of(model, scan, kBody.T_scene_model);
+  const segment::Fit fit = fit_of(model, scan, kBody.T_scene_model);
   CHECK(fit.inlier_fraction < 0.7);
-  const double score = fit_score(fit);
+  const double score = segment::fit_score(fit);
   CHECK(score > 0.5);
   for (int turn = 1; turn < 8; ++turn) {
     const Eigen::Isometry3d wrong = kBody.T_scene_model * pose(0, 0, 0, 0.785 * turn);
-    CHECK(fit_score(fit_of(model, scan, wrong)) < 0.5 * score);
+    CHECK(segment::fit_score(fit_of(model, scan, wrong)) < 0.5 * score);
   }
 }
 
 TEST_CASE("a flat patch is weak evidence, however well it fits", "[segment]") {
   const Cloud patch = test::detail::wall(1.0F, 0.05F), scan = test::detail::wall(1.0F, 0.3F);
-  const Fit fit = fit_of(patch, scan, Eigen::Isometry3d::Identity());
+  const segment::Fit fit = fit_of(patch, scan, Eigen::Isometry3d::Identity());
   CHECK(fit.inlier_fraction == 1);
   CHECK(fit.relief < 1e-6);
-  CHECK(fit_score(fit) < 0.05);
+  CHECK(segment::fit_score(fit) < 0.05);
 }
 
 TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "[segment]") {
   const float half = 0.1F;
   const Cloud plate = test::detail::wall(0, half);
-  const Outline outline = outline_of(plate, kReach);
+  const Outline outline = geometry::outline_of(plate, kReach);
   for (Eigen::Index i = 0; i < plate.points.rows(); ++i) {
     const float inside = half - plate.points.row(i).head<2>().cwiseAbs().maxCoeff();
     int ends = 0;
-    for_each_end(plate, outline, i, [&](const Eigen::Vector3f& place) {
+    geometry::for_each_end(plate, outline, i, [&](const Eigen::Vector3f& place) {
       ++ends;
       CHECK((place - Eigen::Vector3f(plate.points.row(i))).norm() == Approx(kReach).epsilon(1e-4));
       CHECK(place.head<2>().cwiseAbs().maxCoeff() > half);
@@ -146,46 +148,48 @@ TEST_CASE("a plate's rim has ends, its middle none, a closed body hardly any", "
     if (inside < 0.1F * kReach) CHECK(ends >= 2);
   }
   const Cloud body = bumpy_model(1)->cloud;
-  const Outline body_outline = outline_of(body, kReach);
+  const Outline body_outline = geometry::outline_of(body, kReach);
   int ends = 0;
   for (Eigen::Index i = 0; i < body.points.rows(); ++i)
-    for_each_end(body, body_outline, i, [&](const Eigen::Vector3f&) { ++ends; });
-  CHECK(ends < kOutlineDirections * body.points.rows() / 50);
+    geometry::for_each_end(body, body_outline, i, [&](const Eigen::Vector3f&) { ++ends; });
+  CHECK(ends < geometry::kOutlineDirections * body.points.rows() / 50);
 }
 
 TEST_CASE("a flat side is evidence where its outline is the scan's", "[segment]") {
   const Cloud side = test::detail::wall(1.0F, 0.05F);
   Cloud scan = side;
   test::detail::append(scan, test::detail::wall(1.3F, 0.3F), Eigen::Isometry3d::Identity());
-  const Fit fit = fit_of(side, scan, Eigen::Isometry3d::Identity());
+  const segment::Fit fit = fit_of(side, scan, Eigen::Isometry3d::Identity());
   CHECK(fit.relief < 1e-6);
   CHECK(fit.ends > 100);
   CHECK(fit.overhang == 0);
-  const double score = fit_score(fit);
+  const double score = segment::fit_score(fit);
   CHECK(score > 0.8);
   // A narrower side fits inside of it as well, but the scan goes on on both sides.
   Cloud narrow = side;
   narrow.points.col(0) *= 0.6F;
-  const Fit inside = fit_of(narrow, scan, Eigen::Isometry3d::Identity());
+  const segment::Fit inside = fit_of(narrow, scan, Eigen::Isometry3d::Identity());
   CHECK(inside.inlier_fraction == 1);
   CHECK(10 * inside.overhang > 3 * inside.ends);
-  CHECK(fit_score(inside) < 0.7 * score);
+  CHECK(segment::fit_score(inside) < 0.7 * score);
 }
 
 TEST_CASE("a sample of the model gives nearly the same fit", "[segment]") {
   const Cloud scan = scan_of({kBody}), model = bumpy_model(1)->cloud;
-  const RangeView view(scan, kResolution);
-  const ScanSurface surface(scan, view.usable(), kTolerance);
-  const Outline outline = outline_of(model, kReach);
-  const Fit all = measure_fit(model, outline, surface, view, kBody.T_scene_model, kTolerance);
-  const Fit some = measure_fit(model, outline, surface, view, kBody.T_scene_model, kTolerance, 800);
+  const geometry::RangeView view(scan, kResolution);
+  const geometry::ScanSurface surface(scan, view.usable(), kTolerance);
+  const Outline outline = geometry::outline_of(model, kReach);
+  const segment::Fit all =
+      segment::measure_fit(model, outline, surface, view, kBody.T_scene_model, kTolerance);
+  const segment::Fit some =
+      segment::measure_fit(model, outline, surface, view, kBody.T_scene_model, kTolerance, 800);
   CHECK(some.facing < all.facing / 4);
-  CHECK(fit_score(some) == Approx(fit_score(all)).margin(0.05));
+  CHECK(segment::fit_score(some) == Approx(segment::fit_score(all)).margin(0.05));
 }
 
 TEST_CASE("a cloud that is no view is judged without facing or free space", "[segment]") {
   const Cloud model = bumpy_model(1)->cloud;
-  const Fit fit = fit_of(model, model, Eigen::Isometry3d::Identity());
+  const segment::Fit fit = fit_of(model, model, Eigen::Isometry3d::Identity());
   CHECK(fit.facing == static_cast<std::size_t>(model.points.rows()));
   CHECK(fit.supported == fit.facing);
   CHECK(fit.rmse == Approx(0).margin(1e-7));
@@ -195,6 +199,6 @@ TEST_CASE("nothing to judge scores 0", "[segment]") {
   Cloud empty;
   empty.points.resize(0, 3);
   empty.normals.resize(0, 3);
-  CHECK(fit_score(fit_of(empty, scan_of({kBody}), kBody.T_scene_model)) == 0);
-  CHECK(fit_score(fit_of(bumpy_model(1)->cloud, empty, kBody.T_scene_model)) == 0);
+  CHECK(segment::fit_score(fit_of(empty, scan_of({kBody}), kBody.T_scene_model)) == 0);
+  CHECK(segment::fit_score(fit_of(bumpy_model(1)->cloud, empty, kBody.T_scene_model)) == 0);
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "nodes/vote/pose_index.hpp"
+#include "nodes/density/pose_index.hpp"
 
 using namespace posevote;
 
@@ -41,7 +41,7 @@ VoteSet cluster(int count) {
 }
 
 VoteDensity density_of(const VoteSet& votes) {
-  const auto index = std::make_shared<PoseIndex>(votes, Bandwidth{});
+  const auto index = std::make_shared<density::PoseIndex>(votes, density::Bandwidth{});
   return {index->densities(), index};
 }
 
@@ -51,13 +51,13 @@ TEST_CASE("mean shift finds the middle of a cluster from its edge", "[segment]")
   const VoteSet votes = cluster(400);
   const VoteDensity density = density_of(votes);
   const std::vector<char> alive(400, 1);
-  const PoseMode start{
+  const segment::PoseMode start{
       kCenter + Eigen::Vector3f(0.003F, 0.003F, -0.003F),
       Eigen::Quaternionf(Eigen::AngleAxisf(0.12F, Eigen::Vector3f::UnitX())) * kRotation};
-  const PoseMode mode = refine_mode(votes, density, alive, start);
+  const segment::PoseMode mode = segment::refine_mode(votes, density, alive, start);
   CHECK((mode.center - kCenter).norm() < 0.0005F);
   CHECK(mode.rotation.angularDistance(kRotation) < 0.02F);
-  CHECK(raw_density(density, mode) > raw_density(density, start));
+  CHECK(segment::raw_density(density, mode) > segment::raw_density(density, start));
 }
 
 TEST_CASE("a shift never lowers the density", "[segment]") {
@@ -65,9 +65,9 @@ TEST_CASE("a shift never lowers the density", "[segment]") {
   const VoteDensity density = density_of(votes);
   const std::vector<char> alive(40, 1);
   for (std::uint32_t vote = 0; vote < 40; ++vote) {
-    const PoseMode start = vote_pose(votes, vote);
-    const PoseMode mode = refine_mode(votes, density, alive, start);
-    CHECK(raw_density(density, mode) >= raw_density(density, start));
+    const segment::PoseMode start = segment::vote_pose(votes, vote);
+    const segment::PoseMode mode = segment::refine_mode(votes, density, alive, start);
+    CHECK(segment::raw_density(density, mode) >= segment::raw_density(density, start));
   }
 }
 
@@ -81,8 +81,9 @@ TEST_CASE("a mean that loses one side's votes is not taken", "[segment]") {
   add(10, 0.0095F);
   add(6, -0.0095F);
   const VoteDensity density = density_of(votes);
-  const PoseMode start{kCenter, kRotation};
-  const PoseMode mode = refine_mode(votes, density, std::vector<char>(16, 1), start);
+  const segment::PoseMode start{kCenter, kRotation};
+  const segment::PoseMode mode =
+      segment::refine_mode(votes, density, std::vector<char>(16, 1), start);
   CHECK(mode.center == start.center);
 }
 
@@ -93,20 +94,22 @@ TEST_CASE("dead votes pull no mode", "[segment]") {
   const VoteDensity density = density_of(votes);
   std::vector<char> alive(300, 1);
   std::fill(alive.begin() + 100, alive.end(), 0);
-  const PoseMode mode = refine_mode(votes, density, alive, {kCenter, kRotation});
+  const segment::PoseMode mode = segment::refine_mode(votes, density, alive, {kCenter, kRotation});
   CHECK((mode.center - kCenter).norm() < 0.001F);
 }
 
 TEST_CASE("a pose without neighbours stays", "[segment]") {
   const VoteSet votes = cluster(10);
-  const PoseMode far{kCenter + Eigen::Vector3f(1, 0, 0), kRotation};
-  const PoseMode mode = refine_mode(votes, density_of(votes), std::vector<char>(10, 1), far);
+  const segment::PoseMode far{kCenter + Eigen::Vector3f(1, 0, 0), kRotation};
+  const segment::PoseMode mode =
+      segment::refine_mode(votes, density_of(votes), std::vector<char>(10, 1), far);
   CHECK(mode.center == far.center);
 }
 
 TEST_CASE("votes say where the centre lands, poses where the origin does", "[segment]") {
   const Eigen::Vector3f model_center(0.05F, 0.02F, -0.3F);
-  const Eigen::Isometry3d T_scene_model = T_scene_model_of({kCenter, kRotation}, model_center);
+  const Eigen::Isometry3d T_scene_model =
+      segment::T_scene_model_of({kCenter, kRotation}, model_center);
   CHECK((T_scene_model * model_center.cast<double>() - kCenter.cast<double>()).norm() < 1e-7);
   const Eigen::Vector3d origin = T_scene_model * Eigen::Vector3d::Zero();
   CHECK((origin - (kCenter - kRotation * model_center).cast<double>()).norm() < 1e-6);

@@ -24,8 +24,8 @@ Hypothesis beside(const Placed& body, double metres, double support) {
 
 using Values = std::map<std::string, std::string>;
 
-std::vector<Detection> segment(const Hypotheses& proposed, const Cloud& scan,
-                               const Values& values) {
+std::vector<Detection> segmented(const Hypotheses& proposed, const Cloud& scan,
+                                 const Values& values) {
   PerObject<Hypotheses> objects;
   objects.slots = {std::make_shared<Hypotheses>(proposed)};
   return run_node<Detections>("segment_hypotheses", values, objects, features_of(scan), scan,
@@ -33,8 +33,8 @@ std::vector<Detection> segment(const Hypotheses& proposed, const Cloud& scan,
       .items;
 }
 
-std::vector<Detection> segment(const std::vector<Hypothesis>& hypotheses, const Values& values) {
-  return segment({bumpy_model(1), hypotheses}, scan_of({kLeft, kRight}), values);
+std::vector<Detection> segmented(const std::vector<Hypothesis>& hypotheses, const Values& values) {
+  return segmented({bumpy_model(1), hypotheses}, scan_of({kLeft, kRight}), values);
 }
 
 double shift(const Detection& found, const Placed& body) {
@@ -44,7 +44,7 @@ double shift(const Detection& found, const Placed& body) {
 }  // namespace
 
 TEST_CASE("segment_hypotheses judges by the scan, not by support", "[segment]") {
-  const auto found = segment({beside(kLeft, 0.4, 90), beside(kRight, 0.004, 20)}, {});
+  const auto found = segmented({beside(kLeft, 0.4, 90), beside(kRight, 0.004, 20)}, {});
   REQUIRE(found.size() == 1);
   CHECK(shift(found[0], kRight) < 0.002);  // after ICP
   CHECK(found[0].density == 20);
@@ -53,9 +53,9 @@ TEST_CASE("segment_hypotheses judges by the scan, not by support", "[segment]") 
 }
 
 TEST_CASE("segment_hypotheses finds every instance once", "[segment]") {
-  const auto found = segment({beside(kLeft, 0, 30), beside(kLeft, 0.005, 29), beside(kRight, 0, 8),
-                              beside(kRight, 0.3, 7)},
-                             {{"max_instances", "5"}});
+  const auto found = segmented({beside(kLeft, 0, 30), beside(kLeft, 0.005, 29),
+                                beside(kRight, 0, 8), beside(kRight, 0.3, 7)},
+                               {{"max_instances", "5"}});
   REQUIRE(found.size() == 2);
   CHECK(std::min(shift(found[0], kLeft), shift(found[1], kLeft)) < 0.002);
   CHECK(std::min(shift(found[0], kRight), shift(found[1], kRight)) < 0.002);
@@ -84,7 +84,7 @@ TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit bett
   rough.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 0.5).normalized()));
   rough.translation().x() += 0.01;
   proposed.items.push_back({rough, 10});
-  const auto found = segment(proposed, scan, {{"min_score", "0.05"}});
+  const auto found = segmented(proposed, scan, {{"min_score", "0.05"}});
   REQUIRE(found.size() == 1);
   CHECK(shift(found[0], kLeft) < 0.002);
   CHECK(found[0].score > 0.5);
@@ -99,8 +99,9 @@ TEST_CASE("a look-alike that lies off by more than the others is told by them", 
   }
   const Hypothesis left = beside(kLeft, 0, 30), right = beside(kRight, 0, 29);
   const auto found = [&](const std::vector<Hypothesis>& hypotheses, const char* max_residual) {
-    return segment({bumpy_model(1), hypotheses}, scan,
-                   {{"max_instances", "2"}, {"min_score", "0.65"}, {"max_residual", max_residual}});
+    return segmented(
+        {bumpy_model(1), hypotheses}, scan,
+        {{"max_instances", "2"}, {"min_score", "0.65"}, {"max_residual", max_residual}});
   };
   const auto both = found({left, right}, "0");
   REQUIRE(both.size() == 2);
@@ -120,7 +121,7 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
   auto model = std::make_shared<Model>(*bumpy_model(1));
   const auto found_with = [&](const NearSymmetries& near_symmetries) {
     model->near_symmetries = near_symmetries;
-    return segment({model, {{kLeft.T_scene_model * turned.inverse(), 9}}}, scan, {});
+    return segmented({model, {{kLeft.T_scene_model * turned.inverse(), 9}}}, scan, {});
   };
   const auto alone = found_with({});
   CHECK((alone.empty() || shift(alone[0], kLeft) > 0.002 || alone[0].score < 0.8));
@@ -133,8 +134,8 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
 
 TEST_CASE("of poses that look alike, the points where they differ decide", "[segment]") {
   const Cloud scan = scan_of({kLeft});
-  const RangeView view(scan, kResolution);
-  const ScanSurface surface(scan, view.usable(), 2 * kResolution);
+  const geometry::RangeView view(scan, kResolution);
+  const geometry::ScanSurface surface(scan, view.usable(), 2 * kResolution);
   auto model = std::make_shared<Model>(*bumpy_model(1));
   Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
   turned.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -142,7 +143,7 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
   std::vector<std::uint32_t> for_wrong, for_right;
   for (std::uint32_t i = 0; i < model->cloud.points.rows(); ++i) {
     const auto says = [&](const Eigen::Isometry3d& T) {
-      return weigh_points(model->cloud, {i}, surface, view, T, 2 * kResolution).balance;
+      return segment::weigh_points(model->cloud, {i}, surface, view, T, 2 * kResolution).balance;
     };
     if (says(wrong) > 0) for_wrong.push_back(i);
     if (says(kLeft.T_scene_model) > 0) for_right.push_back(i);
@@ -150,7 +151,7 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
   REQUIRE(for_wrong.size() > 100);
   const auto is_found = [&](const NearSymmetry& near_symmetry) {
     model->near_symmetries = {{near_symmetry}};
-    const auto found = segment({model, {{wrong, 9}}}, scan, {{"refine", "false"}});
+    const auto found = segmented({model, {{wrong, 9}}}, scan, {{"refine", "false"}});
     return found.size() == 1 &&
            found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
   };
@@ -160,6 +161,6 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
 }
 
 TEST_CASE("segment_hypotheses of nothing is nothing", "[segment]") {
-  CHECK(segment({}, {}).empty());
-  CHECK(segment({beside(kLeft, 0, 5)}, {{"min_density", "6"}}).empty());
+  CHECK(segmented({}, {}).empty());
+  CHECK(segmented({beside(kLeft, 0, 5)}, {{"min_density", "6"}}).empty());
 }

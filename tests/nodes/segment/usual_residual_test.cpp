@@ -7,8 +7,8 @@ using namespace posevote;
 
 namespace {
 
-Fit fit_of(double rmse, std::size_t supported = 100) {
-  Fit fit;
+segment::Fit fit_of(double rmse, std::size_t supported = 100) {
+  segment::Fit fit;
   fit.rmse = rmse;
   fit.supported = supported;
   return fit;
@@ -17,7 +17,7 @@ Fit fit_of(double rmse, std::size_t supported = 100) {
 }  // namespace
 
 TEST_CASE("exactness is judged by the instances before", "[segment]") {
-  UsualResidual usual;
+  segment::UsualResidual usual;
   CHECK(usual.exactness(fit_of(0.1), 1, 1.5, 0) == 1);  // there are none
   usual.add(fit_of(0.001), 1);
   CHECK(usual.exactness(fit_of(0.0015), 1, 1.5, 0) == 1);
@@ -29,7 +29,7 @@ TEST_CASE("exactness is judged by the instances before", "[segment]") {
 }
 
 TEST_CASE("what is farther away may be less exact", "[segment]") {
-  UsualResidual usual;
+  segment::UsualResidual usual;
   usual.add(fit_of(0.001), 1);
   CHECK(usual.exactness(fit_of(0.004), 2, 1, 0) == 1);
   CHECK(usual.exactness(fit_of(0.005), 2, 1, 0) == Approx(0.64));
@@ -37,7 +37,7 @@ TEST_CASE("what is farther away may be less exact", "[segment]") {
 }
 
 TEST_CASE("instances that leave nothing ask for as much as the least", "[segment]") {
-  UsualResidual usual;
+  segment::UsualResidual usual;
   usual.add(fit_of(0), 1);
   CHECK(usual.exactness(fit_of(0.0005), 1, 1.5, 0.0005) == 1);
   CHECK(usual.exactness(fit_of(0.0006), 1, 1.5, 0.0005) == Approx(25.0 / 36));

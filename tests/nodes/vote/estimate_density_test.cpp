@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "nodes/vote/pose_index.hpp"
+#include "nodes/density/pose_index.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/votes.hpp"
 

@@ -15,7 +15,7 @@ using posevote::test::TemporaryFolder;
 
 namespace {
 
-FrameReport frame(std::size_t number) {
+write::FrameReport frame(std::size_t number) {
   return {
       number, {"scans/a.ply", 0, static_cast<int>(number), {}}, 1.25, {{"load_scene", 0.5}}, "a"};
 }
@@ -39,7 +39,7 @@ nlohmann::json json(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("a row of results.csv is BOP's: R row by row, t in mm", "[write]") {
-  const std::string row = csv_rows(frame(3), one_chef());
+  const std::string row = write::csv_rows(frame(3), one_chef());
   int scene = 0;
   int image = 0;
   int object = 0;
@@ -65,7 +65,7 @@ TEST_CASE("a row of results.csv is BOP's: R row by row, t in mm", "[write]") {
 
 TEST_CASE("the files are complete after every frame", "[write]") {
   const TemporaryFolder folder;
-  ResultsWriter writer(folder / "out", false);
+  write::ResultsWriter writer(folder / "out", false);
   CHECK(json(folder / "out/results.json")["frames"].empty());
   CHECK(json(folder / "out/failures.json").empty());
   for (std::size_t i = 0; i < 3; ++i) {
@@ -76,8 +76,8 @@ TEST_CASE("the files are complete after every frame", "[write]") {
     CHECK(results["frames"][i]["detections"][0]["T_scene_model"][3] == 0.1);
     CHECK(results["nodes"][0]["node"] == "load_scene");
   }
-  writer.write(FailureReport{3, "scans/bad\xff.ply", "load_scene", "truncated"});
-  writer.write(FailureReport{4, "b.ply", "load_scene", "empty"});
+  writer.write(write::FailureReport{3, "scans/bad\xff.ply", "load_scene", "truncated"});
+  writer.write(write::FailureReport{4, "b.ply", "load_scene", "empty"});
   const auto failures = json(folder / "out/failures.json");
   REQUIRE(failures.size() == 2);
   CHECK(failures[1]["what"] == "empty");
@@ -85,26 +85,26 @@ TEST_CASE("the files are complete after every frame", "[write]") {
 
 TEST_CASE("another run's folder is not written over", "[write]") {
   const TemporaryFolder folder;
-  { ResultsWriter writer(folder / "out", false); }
-  CHECK_THROWS_AS(ResultsWriter(folder / "out", false), std::invalid_argument);
+  { write::ResultsWriter writer(folder / "out", false); }
+  CHECK_THROWS_AS(write::ResultsWriter(folder / "out", false), std::invalid_argument);
 }
 
 TEST_CASE("resuming keeps answered frames and drops what a killed run left half written",
           "[write]") {
   const TemporaryFolder folder;
   {
-    ResultsWriter writer(folder / "out", false);
+    write::ResultsWriter writer(folder / "out", false);
     writer.write(frame(0), one_chef(), "[]");
     writer.write(frame(1), {}, "[]");
-    writer.write(FailureReport{2, "b.ply", "load_scene", "empty"});
+    writer.write(write::FailureReport{2, "b.ply", "load_scene", "empty"});
   }
   std::ofstream(folder / "out/results.csv", std::ios::app)
-      << csv_rows(frame(4), one_chef()) << "0,5";
+      << write::csv_rows(frame(4), one_chef()) << "0,5";
   std::ofstream(folder / "out/results.json", std::ios::app) << "{\"frame\": 5, \"fi";
-  ResultsWriter writer(folder / "out", true);
+  write::ResultsWriter writer(folder / "out", true);
   CHECK(writer.answered() == std::set<std::size_t>{0, 1});
   CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + csv_rows(frame(0), one_chef()));
+        "scene_id,im_id,obj_id,score,R,t,time\n" + write::csv_rows(frame(0), one_chef()));
   writer.write(frame(2), one_chef(), "[]");
   CHECK(json(folder / "out/results.json")["frames"].size() == 3);
   CHECK(json(folder / "out/failures.json").empty());
@@ -114,25 +114,25 @@ TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touc
           "[write]") {
   const TemporaryFolder folder;
   {
-    ResultsWriter writer(folder / "out", false);
+    write::ResultsWriter writer(folder / "out", false);
     writer.write(frame(0), one_chef(), "[]");
-    writer.write(FailureReport{1, "b.ply", "load_scene", "empty"});
+    writer.write(write::FailureReport{1, "b.ply", "load_scene", "empty"});
   }
   std::filesystem::remove(folder / "out/results.csv");
   CHECK_THROWS_WITH(
-      ResultsWriter(folder / "out", true, {{0, "elsewhere/other.ply"}}),
+      write::ResultsWriter(folder / "out", true, {{0, "elsewhere/other.ply"}}),
       Catch::Contains("results.json: frame 0 is ") && Catch::Contains("now it is other.ply"));
   CHECK(json(folder / "out/failures.json").size() == 1);
   CHECK(!std::filesystem::exists(folder / "out/results.csv"));
-  const ResultsWriter writer(folder / "out", true,
-                             {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
+  const write::ResultsWriter writer(
+      folder / "out", true, {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
   CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + csv_rows(frame(0), one_chef()));
+        "scene_id,im_id,obj_id,score,R,t,time\n" + write::csv_rows(frame(0), one_chef()));
 }
 
 TEST_CASE("a full disk keeps what is written and names the file", "[write]") {
   const TemporaryFolder folder;
-  AppendJson list(folder / "list.json", "[", "\n]\n");
+  write::AppendJson list(folder / "list.json", "[", "\n]\n");
   list.append("1");
   const std::string before = read_text(folder / "list.json");
   // A file-size limit stands in for the full disk: writes beyond it fail with an error.

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "nodes/write/painter.hpp"
+#include "nodes/pictures/painter.hpp"
 #include "tests/nodes/write/picture.hpp"
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -24,8 +24,10 @@ Picture draw(const Cloud& scan, const Detections& detections) {
   return Picture(folder / "pictures/shelf.png");
 }
 
-bool is_red(const Rgb& pixel) { return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2]; }
-bool is_grey(const Rgb& pixel) { return std::abs(pixel[0] - pixel[2]) < 8 && pixel[0] < 220; }
+bool is_red(const write::Rgb& pixel) { return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2]; }
+bool is_grey(const write::Rgb& pixel) {
+  return std::abs(pixel[0] - pixel[2]) < 8 && pixel[0] < 220;
+}
 
 /// Mean place of the pixels that fulfil `test`, in parts of the width, and their number.
 template <class Test>
@@ -77,7 +79,7 @@ TEST_CASE("the picture is upright for cameras that look along +z and along -z", 
   for (const float look : {1.0F, -1.0F}) {
     Cloud scan = wall();
     scan.points.rightCols(2) *= look;  // y down and z forward; or y up and z back
-    const View view = view_of(scan, {}, 100);
+    const pictures::View view = pictures::view_of(scan, {}, 100);
     const Eigen::Vector3f up_right(0.1F, -0.1F * look, look);
     const Eigen::Vector2f at = view.in_picture(view.in_view(up_right));
     CHECK(at.x() > 60);
@@ -91,7 +93,7 @@ TEST_CASE("what reaches beyond the scan is in the picture, too", "[write]") {
   const Cloud scan = wall();
   PointMatrix also(1, 3);
   also << 2, 0, 1;
-  const View view = view_of(scan, also, 100);
+  const pictures::View view = pictures::view_of(scan, also, 100);
   const Eigen::Vector2f at = view.in_picture(view.in_view(also.row(0)));
   CHECK(at.x() > 90);
   CHECK(at.x() < 100);
@@ -99,12 +101,12 @@ TEST_CASE("what reaches beyond the scan is in the picture, too", "[write]") {
 
 TEST_CASE("outliers do not shrink the scan, nor is a slender one cut", "[write]") {
   Cloud scan = wall();
-  const float scale = view_of(scan, {}, 100).scale;
+  const float scale = pictures::view_of(scan, {}, 100).scale;
   scan.points.row(0) << 50, 3, 1;
-  CHECK(view_of(scan, {}, 100).scale > 0.75F * scale);
+  CHECK(pictures::view_of(scan, {}, 100).scale > 0.75F * scale);
   Cloud tall = make_patch(101, 0.004F, 1);
   tall.points.col(0) *= 0.1F;
-  const View view = view_of(tall, {}, 100);
+  const pictures::View view = pictures::view_of(tall, {}, 100);
   CHECK(view.height == 150);
   for (const Eigen::Index corner : {Eigen::Index{0}, tall.points.rows() - 1}) {
     const Eigen::Vector2f at = view.in_picture(view.in_view(tall.points.row(corner)));
@@ -115,14 +117,14 @@ TEST_CASE("outliers do not shrink the scan, nor is a slender one cut", "[write]"
 }
 
 TEST_CASE("spacing is that of the points, not of what was expected", "[write]") {
-  CHECK(spacing_of(make_patch(50, 0.004F, 1).points, 0.002F) == Approx(0.004));
-  CHECK(spacing_of(make_patch(50, 0.001F, 1).points, 0.002F) == Approx(0.001));
-  CHECK(spacing_of(PointMatrix(0, 3), 0.002F) == 0.002F);
-  CHECK(spacing_of(make_patch(3, 1, 1).points, 0) > 0);
+  CHECK(pictures::spacing_of(make_patch(50, 0.004F, 1).points, 0.002F) == Approx(0.004));
+  CHECK(pictures::spacing_of(make_patch(50, 0.001F, 1).points, 0.002F) == Approx(0.001));
+  CHECK(pictures::spacing_of(PointMatrix(0, 3), 0.002F) == 0.002F);
+  CHECK(pictures::spacing_of(make_patch(3, 1, 1).points, 0) > 0);
 }
 
 TEST_CASE("labels of instances at one place do not cover each other", "[write]") {
-  const auto is_letter = [](const Rgb& p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; };
+  const auto is_letter = [](const write::Rgb& p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; };
   const auto letters = [&](const Detections& detections) {
     return middle_of(draw(wall(), detections), is_letter).z();
   };
@@ -143,10 +145,10 @@ TEST_CASE("discs lie in the surface: what is just in front of a slope is seen", 
   const TemporaryFolder folder;
   for (const float steep : {-1.0F, 1.0F}) {
     const Cloud coarse = slope(11, 0.04F, 1, steep);
-    Painter painter(coarse, {}, 300, 0.04F);
-    painter.draw(coarse, Eigen::Isometry3f::Identity(), Colour(0, 1, 0), 0);
-    painter.draw(slope(101, 0.003F, 0.998F, steep), Eigen::Isometry3f::Identity(), Colour(1, 0, 0),
-                 0);
+    pictures::Painter painter(coarse, {}, 300, 0.04F);
+    painter.draw(coarse, Eigen::Isometry3f::Identity(), pictures::Colour(0, 1, 0), 0);
+    painter.draw(slope(101, 0.003F, 0.998F, steep), Eigen::Isometry3f::Identity(),
+                 pictures::Colour(1, 0, 0), 0);
     painter.save(folder / "a.png");
     const Picture picture(folder / "a.png");
     int green = 0;  // in the middle, where red is in front

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/descriptors/descriptor_index.hpp"
+
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_index.h>
+#include <flann/algorithms/kdtree_single_index.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "graph/parallel.hpp"
+#include "nodes/descriptors/descriptor_kernels.hpp"
+#include "nodes/descriptors/exact_index.hpp"
+
+namespace posevote::descriptors {
+namespace {
+
+using Metric = flann::L2<float>;
+using FlannIndex = flann::NNIndex<Metric>;
+
+/// A view; FLANN's type has no const form, but none of the functions used here writes through it.
+flann::Matrix<float> view(const DescriptorMatrix& matrix, Eigen::Index first, Eigen::Index count) {
+  return {const_cast<float*>(matrix.data() + first * matrix.cols()),
+          static_cast<std::size_t>(count), static_cast<std::size_t>(matrix.cols())};
+}
+
+DescriptorMatrix stack(const std::vector<const DescriptorMatrix*>& matrices) {
+  Eigen::Index rows = 0, columns = 0;
+  for (const DescriptorMatrix* matrix : matrices) {
+    if (matrix->rows() == 0) continue;
+    if (rows > 0 && matrix->cols() != columns)
+      throw std::runtime_error("descriptors of " + std::to_string(matrix->cols()) + " and of " +
+                               std::to_string(columns) + " numbers cannot share an index");
+    columns = matrix->cols();
+    rows += matrix->rows();
+  }
+  if (rows == 0 || columns == 0) throw std::runtime_error("there are no descriptors to search");
+  if (rows >= std::numeric_limits<int>::max())
+    throw std::runtime_error("too many descriptors for one index: " + std::to_string(rows));
+  DescriptorMatrix stacked(rows, columns);
+  Eigen::Index row = 0;
+  for (const DescriptorMatrix* matrix : matrices) {
+    if (matrix->rows() == 0) continue;
+    stacked.middleRows(row, matrix->rows()) = *matrix;
+    row += matrix->rows();
+  }
+  return stacked;
+}
+
+void require_finite(const DescriptorMatrix& matrix, const char* whose) {
+  if (!matrix.allFinite())
+    throw std::runtime_error(std::string(whose) + " descriptors hold values that are not finite");
+}
+
+void require_valid(const IndexOptions& options) {
+  const auto require_at_least = [](const char* name, int value, int least) {
+    if (value < least)
+      throw std::runtime_error(std::string(name) + " is " + std::to_string(value) +
+                               ", expected at least " + std::to_string(least));
+  };
+  if (options.search != "exact" && options.search != "kd_tree" && options.search != "approximate")
+    throw std::runtime_error("unknown search '" + options.search +
+                             "', expected exact, kd_tree or approximate");
+  require_at_least("trees", options.trees, 1);
+  if (options.trees > 64)
+    throw std::runtime_error("trees is " + std::to_string(options.trees) + ", expected at most 64");
+  require_at_least("checks", options.checks, 2);
+}
+
+std::string text_of(const Blocks& blocks) {
+  if (blocks.empty()) return "one descriptor";
+  std::string text = "blocks of";
+  for (const std::uint32_t width : blocks) text += " " + std::to_string(width);
+  return text;
+}
+
+void require_blocks(const Blocks& blocks, Eigen::Index columns) {
+  std::uint64_t sum = 0;
+  for (const std::uint32_t width : blocks) {
+    if (width == 0) throw std::runtime_error("a block of a descriptor has no columns");
+    sum += width;
+  }
+  if (!blocks.empty() && sum != static_cast<std::uint64_t>(columns))
+    throw std::runtime_error("descriptors of " + std::to_string(columns) + " numbers in " +
+                             text_of(blocks));
+}
+
+std::unique_ptr<FlannIndex> build_flann(const DescriptorMatrix& rows, const IndexOptions& options) {
+  const flann::Matrix<float> points = view(rows, 0, rows.rows());
+  std::unique_ptr<FlannIndex> index;
+  if (options.search == "kd_tree")
+    index = std::make_unique<flann::KDTreeSingleIndex<Metric>>(points);
+  else
+    index = std::make_unique<flann::KDTreeIndex<Metric>>(points,
+                                                         flann::KDTreeIndexParams(options.trees));
+  index->buildIndex();
+  return index;
+}
+
+/// The rows of one descriptor, and how they are searched.
+class BlockIndex {
+ public:
+  BlockIndex(DescriptorMatrix rows, const IndexOptions& options) : options_(options) {
+    if (options.search == "exact") {
+      exact_ = std::make_unique<ExactIndex>(std::move(rows));
+    } else {
+      rows_ = std::move(rows);
+      flann_ = build_flann(rows_, options);
+    }
+  }
+
+  std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries) const {
+    if (exact_) return exact_->nearest_two(queries);
+    std::vector<TwoNearest> nearest(static_cast<std::size_t>(queries.rows()));
+    graph::parallel_for(nearest.size(), 16, [&](std::size_t query) {
+      nearest[query] = search_flann(queries, static_cast<Eigen::Index>(query));
+    });
+    return nearest;
+  }
+
+ private:
+  TwoNearest search_flann(const DescriptorMatrix& queries, Eigen::Index query) const;
+
+  IndexOptions options_;
+  std::unique_ptr<ExactIndex> exact_;  ///< either this
+  DescriptorMatrix rows_;              ///< or these, to which FLANN keeps a pointer
+  std::unique_ptr<FlannIndex> flann_;
+};
+
+TwoNearest BlockIndex::search_flann(const DescriptorMatrix& queries, Eigen::Index query) const {
+  const bool exact = options_.search == "kd_tree";
+  const flann::SearchParams params(exact ? flann::FLANN_CHECKS_UNLIMITED : options_.checks);
+  const flann::Matrix<float> one = view(queries, query, 1);
+  std::vector<std::vector<std::size_t>> found;
+  std::vector<std::vector<float>> squared;
+  flann_->knnSearch(one, found, squared,
+                    static_cast<std::size_t>(std::min<Eigen::Index>(2, rows_.rows())), params);
+  // FLANN's sums are in float and it returns any of equally near rows, so the exact answer takes
+  // all rows that are as near as the second, and a little more.
+  if (exact)
+    flann_->radiusSearch(one, found, squared, 1.0001F * squared[0].back() + 1e-30F, params);
+  BestTwo best;
+  for (const std::size_t row : found[0])
+    best.offer(squared_distance(&queries(query, 0), &rows_(static_cast<Eigen::Index>(row), 0),
+                                static_cast<std::size_t>(rows_.cols())),
+               static_cast<std::uint32_t>(row));
+  return best.result();
+}
+
+/// Calls visit(block of the matrix) for each of its blocks.
+template <class Visit>
+void for_each_block(const DescriptorMatrix& matrix, const Blocks& blocks, const Visit& visit) {
+  Eigen::Index first = 0;
+  for (const std::uint32_t width : blocks) {
+    visit(DescriptorMatrix(matrix.middleCols(first, width)));
+    first += width;
+  }
+}
+
+}  // namespace
+
+struct DescriptorIndex::Data {
+  IndexOptions options;
+  Blocks blocks;  ///< empty: one descriptor
+  Eigen::Index columns = 0;
+  std::vector<std::unique_ptr<const BlockIndex>> indices;
+};
+
+DescriptorIndex::DescriptorIndex(const std::vector<const DescriptorMatrix*>& matrices,
+                                 IndexOptions options, Blocks blocks) {
+  require_valid(options);
+  DescriptorMatrix rows = stack(matrices);
+  require_finite(rows, "the models'");
+  require_blocks(blocks, rows.cols());
+  auto data = std::make_unique<Data>();
+  data->columns = rows.cols();
+  const auto add = [&](DescriptorMatrix block) {
+    data->indices.push_back(std::make_unique<const BlockIndex>(std::move(block), options));
+  };
+  if (blocks.empty())
+    add(std::move(rows));
+  else
+    for_each_block(rows, blocks, add);
+  data->options = std::move(options);
+  data->blocks = std::move(blocks);
+  data_ = std::move(data);
+}
+
+DescriptorIndex::~DescriptorIndex() = default;
+
+std::vector<TwoNearest> DescriptorIndex::nearest_two(const DescriptorMatrix& queries,
+                                                     const Blocks& blocks) const {
+  if (queries.rows() == 0) return {};
+  if (queries.cols() != data_->columns)
+    throw std::runtime_error("the scene's descriptors have " + std::to_string(queries.cols()) +
+                             " numbers, the library's " + std::to_string(data_->columns));
+  if (blocks != data_->blocks)
+    throw std::runtime_error("the scene's features are " + text_of(blocks) + ", the library's " +
+                             text_of(data_->blocks));
+  require_finite(queries, "the scene's");
+  if (blocks.empty()) return data_->indices[0]->nearest_two(queries);
+  std::vector<TwoNearest> best;
+  std::size_t number = 0;
+  for_each_block(queries, blocks, [&](const DescriptorMatrix& block) {
+    std::vector<TwoNearest> nearest = data_->indices[number++]->nearest_two(block);
+    if (best.empty()) return best.swap(nearest);
+    for (std::size_t i = 0; i < best.size(); ++i)
+      if (squared_ratio(nearest[i]) < squared_ratio(best[i])) best[i] = nearest[i];
+  });
+  return best;
+}
+
+const IndexOptions& DescriptorIndex::options() const { return data_->options; }
+
+bool DescriptorIndex::reproducible() const { return data_->options.search != "approximate"; }
+
+std::shared_ptr<const DescriptorIndex> index_of(
+    const std::vector<std::shared_ptr<const Model>>& models, const IndexOptions& options) {
+  std::vector<const DescriptorMatrix*> matrices;
+  matrices.reserve(models.size());
+  for (const auto& model : models) {
+    if (model->features.blocks != models[0]->features.blocks)
+      throw std::runtime_error("the features of '" + models[0]->name + "' are " +
+                               text_of(models[0]->features.blocks) + ", those of '" + model->name +
+                               "' " + text_of(model->features.blocks));
+    matrices.push_back(&model->features.descriptors);
+  }
+  const Blocks blocks = models.empty() ? Blocks{} : models[0]->features.blocks;
+  return std::make_shared<const DescriptorIndex>(matrices, options, blocks);
+}
+
+}  // namespace posevote::descriptors

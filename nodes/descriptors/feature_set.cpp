@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/descriptors/feature_set.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "graph/parallel.hpp"
+
+namespace posevote::descriptors {
+namespace {
+
+const Cloud& checked(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
+  require_describable(cloud, points, scale);
+  return cloud;
+}
+
+}  // namespace
+
+void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
+  if (cloud.normals.rows() != cloud.points.rows())
+    throw std::runtime_error("the cloud has " + std::to_string(cloud.points.rows()) +
+                             " points but " + std::to_string(cloud.normals.rows()) + " normals");
+  if (points.indices.empty()) throw std::runtime_error("there are no feature points to describe");
+  for (const std::uint32_t point : points.indices)
+    if (point >= cloud.points.rows())
+      throw std::runtime_error("feature point " + std::to_string(point) + " of a cloud of " +
+                               std::to_string(cloud.points.rows()) + " points");
+  if (!(scale.resolution > 0))
+    throw std::runtime_error("the resolution is " + std::to_string(scale.resolution) +
+                             " m, expected more than 0");
+}
+
+bool is_oriented(const Cloud& cloud, std::uint32_t point) {
+  return cloud.points.row(point).allFinite() &&
+         std::abs(cloud.normals.row(point).squaredNorm() - 1) < 0.5F;
+}
+
+FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
+                          const DescriptorMatrix& descriptors, const std::vector<char>& described) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < described.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (described[i] && descriptors.row(row).allFinite()) kept.push_back(row);
+  }
+  if (kept.empty())
+    throw std::runtime_error("none of " + std::to_string(points.indices.size()) +
+                             " feature points has enough neighbours and a normal to be described");
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  FeatureSet features;
+  features.points.resize(count, 3);
+  features.normals.resize(count, 3);
+  features.descriptors.resize(count, descriptors.cols());
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const Eigen::Index from = kept[static_cast<std::size_t>(row)];
+    const std::uint32_t point = points.indices[static_cast<std::size_t>(from)];
+    features.points.row(row) = cloud.points.row(point);
+    features.normals.row(row) = cloud.normals.row(point);
+    features.descriptors.row(row) = descriptors.row(from);
+  }
+  return features;
+}
+
+Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius)
+    : cloud_(checked(cloud, points, scale)),
+      points_(points),
+      resolution_(scale.resolution),
+      radius_(static_cast<float>(radius) * scale.resolution),
+      grid_(cloud.points, 0.5F * radius_) {}
+
+FeatureSet Support::describe_each(
+    int length, const std::function<bool(std::uint32_t point, float* descriptor)>& describe) const {
+  const std::size_t count = points_.indices.size();
+  DescriptorMatrix descriptors(static_cast<Eigen::Index>(count), length);
+  std::vector<char> described(count, 0);
+  graph::parallel_for(count, 32, [&](std::size_t i) {
+    const std::uint32_t point = points_.indices[i];
+    if (is_oriented(cloud_, point))
+      described[i] = describe(point, descriptors.row(static_cast<Eigen::Index>(i)).data());
+  });
+  return keep_described(cloud_, points_, descriptors, described);
+}
+
+}  // namespace posevote::descriptors

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/grid.hpp"
+
+#include <bit>
+
+#include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/radix_sort.hpp"
+
+namespace posevote::geometry {
+namespace {
+
+std::uint64_t key_of(std::int64_t y, std::int64_t z) {
+  return (static_cast<std::uint64_t>(z) << 32) | static_cast<std::uint32_t>(y);
+}
+
+struct Entry {
+  std::uint64_t key;
+  float x;
+  std::uint32_t index;
+};
+
+}  // namespace
+
+PointGrid::PointGrid(const PointMatrix& points, float cell) {
+  const std::vector<std::uint32_t> finite = finite_rows(points);
+  if (finite.empty()) return;
+
+  Eigen::Vector3f low = points.row(finite.front());
+  Eigen::Vector3f high = low;
+  for (const std::uint32_t i : finite) {
+    low = low.cwiseMin(points.row(i).transpose());
+    high = high.cwiseMax(points.row(i).transpose());
+  }
+  origin_ = low;
+  const double extent = (high.cast<double>() - low.cast<double>()).maxCoeff();
+  // Row numbers fill 32 bits of a key: a cell may not be finer than that (nor NaN, nor infinite).
+  cell_ = std::max(
+      {1e-9F, static_cast<float>(extent / 1e9), std::min(cell, static_cast<float>(extent))});
+  last_row_ = std::floor(extent / cell_) + 1;
+
+  std::vector<Entry> entries;
+  entries.reserve(finite.size());
+  for (const std::uint32_t i : finite)
+    entries.push_back(
+        {key_of(row(points(i, 1), low.y()), row(points(i, 2), low.z())), points(i, 0), i});
+  radix_sort(entries, [](const Entry& one) { return ordered_bits(one.x); });
+  radix_sort(entries, [](const Entry& one) { return one.key; });
+
+  std::size_t rods = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    rods += i == 0 || entries[i].key != entries[i - 1].key ? 1 : 0;
+  slots_.resize(std::bit_ceil(2 * rods));
+  for (auto* column : {&x_, &y_, &z_}) column->reserve(entries.size() + kGridPadding);
+  index_.reserve(entries.size());
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin;
+    for (; end < entries.size() && entries[end].key == entries[begin].key; ++end) {
+      const std::uint32_t i = entries[end].index;
+      x_.push_back(points(i, 0));
+      y_.push_back(points(i, 1));
+      z_.push_back(points(i, 2));
+      index_.push_back(i);
+    }
+    std::size_t at = scatter(entries[begin].key, slots_.size() - 1);
+    while (slots_[at].rod.end != 0) at = (at + 1) & (slots_.size() - 1);
+    slots_[at] = {entries[begin].key,
+                  {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}};
+    begin = end;
+  }
+  for (auto* column : {&x_, &y_, &z_}) column->resize(size() + kGridPadding, 0);
+}
+
+std::vector<GridRun> PointGrid::pieces(float length) const {
+  std::vector<GridRun> pieces;
+  for (const Slot& slot : slots_)
+    for (std::uint32_t begin = slot.rod.begin, end = begin; begin < slot.rod.end; begin = end) {
+      while (end < slot.rod.end && x_[end] - x_[begin] <= length) ++end;
+      pieces.push_back({begin, end});
+    }
+  return pieces;
+}
+
+GridRun PointGrid::find(std::int64_t y, std::int64_t z) const {
+  if (y < 0 || z < 0) return {};
+  const std::uint64_t key = key_of(y, z);
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t at = scatter(key, mask); slots_[at].rod.end != 0; at = (at + 1) & mask)
+    if (slots_[at].key == key) return slots_[at].rod;
+  return {};
+}
+
+std::optional<Neighbour> PointGrid::nearest(const Eigen::Vector3f& center, float radius) const {
+  std::optional<Neighbour> best;
+  // Most queries have a neighbour close by: look there first, and only else in the whole ball.
+  for (const float reach : {std::min(radius, 0.5F * cell_), std::min(radius, 2 * cell_), radius}) {
+    for_each_within(center, reach, [&best](std::uint32_t index, float squared) {
+      if (!best || squared < best->squared || (squared == best->squared && index < best->index))
+        best = Neighbour{index, squared};
+    });
+    if (best) break;
+  }
+  return best;
+}
+
+}  // namespace posevote::geometry

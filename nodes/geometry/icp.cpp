@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/icp.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "graph/parallel.hpp"
+
+namespace posevote::geometry {
+namespace {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr Eigen::Index kFewSamples = 500;  // show the way
+constexpr double kFewUntil = 0.5;          // of the iterations, at most
+constexpr double kSlow = 0.1;  // of the final search radius: a shorter step calls for the many
+constexpr std::size_t kFewestPairs = 10;
+constexpr double kShrink = 0.85;  // of the search radius per iteration
+// Eigenvalues, as shares of the pairs' weight. Directions below the first are not moved at all;
+// weakly held ones take several small steps as long as chance partners are many, and get there once
+// the search radius is the last.
+constexpr double kUnobserved = 1e-4, kDamping = 0.01, kFinalDamping = 1e-3;
+constexpr double kMaxTurn = 0.2;  // [rad] per iteration
+
+/// A posed model point on its scan point's tangent plane.
+struct Pair {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of the scan
+  double residual = 0;                               // signed distance to the plane [m]
+  double weight = 0;                                 // 0: no partner
+};
+
+Pair find_partner(const OrientedPoint& p, const ScanSurface& scan, float distance) {
+  Pair pair;
+  if (!scan.faces_sensor(p)) return pair;
+  const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, distance);
+  if (!partner) return pair;
+  const Eigen::Vector3f offset = p.point - partner->point;
+  const float inside = 1 - offset.squaredNorm() / (distance * distance);
+  pair.point = p.point.cast<double>();
+  pair.normal = partner->normal.cast<double>();
+  pair.residual = static_cast<double>(offset.dot(partner->normal));
+  pair.weight = static_cast<double>(inside > 0 ? inside * inside : 0);
+  return pair;
+}
+
+/// The model is sampled with a fixed stride: voxel order runs through space, so that is even.
+std::vector<Pair> find_pairs(const Cloud& model, const ScanSurface& scan,
+                             const Eigen::Isometry3f& T_scene_model, float distance,
+                             Eigen::Index most) {
+  const Eigen::Index stride = model.points.rows() / most + 1;
+  const auto samples = static_cast<std::size_t>((model.points.rows() + stride - 1) / stride);
+  std::vector<Pair> pairs(samples);
+  graph::parallel_for(samples, 256, [&](std::size_t i) {
+    const OrientedPoint p =
+        posed_point(model, static_cast<Eigen::Index>(i) * stride, T_scene_model);
+    pairs[i] = find_partner(p, scan, distance);
+  });
+  std::erase_if(pairs, [](const Pair& pair) { return !(pair.weight > 0); });
+  return pairs;
+}
+
+/// Where the step turns about, and the lever that makes radians and metres alike.
+struct Pivot {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double lever = 0;
+};
+
+Pivot find_pivot(const std::vector<Pair>& pairs) {
+  Pivot pivot;
+  double weight = 0;
+  for (const Pair& pair : pairs) {
+    pivot.center += pair.weight * pair.point;
+    weight += pair.weight;
+  }
+  pivot.center /= weight;
+  double squared = 0;
+  for (const Pair& pair : pairs) squared += pair.weight * (pair.point - pivot.center).squaredNorm();
+  pivot.lever = std::sqrt(squared / weight);
+  return pivot;
+}
+
+/// (lever x turn, shift) that brings the points closer to the planes.
+Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping) {
+  Matrix6d normal_matrix = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double weight = 0;
+  for (const Pair& pair : pairs) {
+    Vector6d row;
+    row << (pair.point - pivot.center).cross(pair.normal) / pivot.lever, pair.normal;
+    normal_matrix += pair.weight * row * row.transpose();
+    gradient += pair.weight * pair.residual * row;
+    weight += pair.weight;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(normal_matrix / weight);
+  Vector6d step = Vector6d::Zero();
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const double held = solver.eigenvalues()[k];
+    const Vector6d direction = solver.eigenvectors().col(k);
+    if (held > kUnobserved) step -= direction.dot(gradient) / weight / (held + damping) * direction;
+  }
+  return step;
+}
+
+/// Shortens a step that leaves the range in which it was linearised.
+Vector6d limit_step(const Vector6d& step, double lever, double distance) {
+  const double turn = step.head<3>().norm() / (kMaxTurn * lever);
+  const double shift = step.tail<3>().norm() / distance;
+  return step / std::max({1.0, turn, shift});
+}
+
+void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& pivot) {
+  const Eigen::Vector3d turn = step.head<3>() / pivot.lever;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  if (turn.norm() > 0) R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  const Eigen::Vector3d t = T_scene_model.translation();
+  T_scene_model.translation() = R * (t - pivot.center) + pivot.center + step.tail<3>();
+  const Eigen::Quaterniond rotation(R * T_scene_model.linear());
+  T_scene_model.linear() = rotation.normalized().toRotationMatrix();
+}
+
+}  // namespace
+
+Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
+                      const IcpParams& params) {
+  Eigen::Isometry3d T_scene_model = start;
+  const auto end = static_cast<double>(params.end_distance);
+  double distance = std::max(end, static_cast<double>(params.start_distance));
+  bool few = distance > end;
+  for (int iteration = 0; iteration < params.iterations; ++iteration) {
+    few = few && iteration < kFewUntil * params.iterations;
+    const std::vector<Pair> pairs =
+        find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance),
+                   few ? std::min(kFewSamples, params.samples) : params.samples);
+    if (pairs.size() < kFewestPairs) break;
+    const Pivot pivot = find_pivot(pairs);
+    if (!(pivot.lever > 0)) break;
+    const double damping = distance > end ? kDamping : kFinalDamping;
+    const Vector6d step = limit_step(solve_step(pairs, pivot, damping), pivot.lever, distance);
+    if (!step.allFinite()) break;
+    move(T_scene_model, step, pivot);
+    const bool is_done = distance <= end && step.norm() <= (few ? kSlow : params.still) * end;
+    if (is_done && !few) break;
+    few = few && !is_done;
+    distance = std::max(end, distance * kShrink);
+  }
+  return T_scene_model;
+}
+
+}  // namespace posevote::geometry

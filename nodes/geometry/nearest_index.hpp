@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nearest-neighbour search for millions of queries, most of which ask for one distance or less.
+//
+// Space is cut into cubes with that distance as their edge, cubes come in blocks of 8 x 8 x 8, and
+// only blocks that hold points exist, in a hash table. A query within the edge reads nine short
+// rows of cubes, in two blocks on average; where nothing is near, which is most of the space around
+// a pose that is wrong, it ends after the look-ups. Memory: 16 bytes a point, 2 KB a block; where
+// points are so sparse that few share a block, cubes are larger. O(points) to build.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nodes/geometry/grid.hpp"
+
+namespace posevote::geometry {
+
+/// Immutable once built; safe to read from many threads. Points that are not finite are never
+/// found.
+class NearestIndex {
+ public:
+  /// `edge`: the distance that is asked for most [m]; larger ones are answered, more slowly. Finds
+  /// nothing if it is not above 0 or not finite.
+  NearestIndex(const PointMatrix& points, float edge);
+
+  /// The nearest point within `distance` of which hidden[index] is 0; of several at one distance
+  /// the one with the smallest index.
+  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float distance,
+                                   const std::vector<char>& hidden) const;
+
+ private:
+  using Cube = std::array<std::int64_t, 3>;  ///< its place along each axis
+  struct Point {
+    float x, y, z;
+    std::uint32_t index;
+  };
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  class Search;
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t block = kNone;
+  };
+
+  std::vector<std::size_t> number_cubes(const PointMatrix& points,
+                                        const std::vector<std::uint32_t>& rows);
+  Cube cube_of(const Eigen::Vector3d& point) const;
+  std::size_t slot_of(std::uint64_t block_key) const;
+  std::uint32_t claim(std::uint64_t block_key);
+  std::uint32_t find(std::uint64_t block_key) const;
+
+  double per_edge_ = 1;               ///< cubes in a metre
+  std::vector<Point> points_;         ///< cube by cube, block by block
+  std::vector<std::uint32_t> begin_;  ///< of each cube's points; behind the last the end of all
+  std::vector<Slot> slots_;           ///< blocks; open addressing, a power of two
+  std::uint32_t blocks_ = 0;
+};
+
+}  // namespace posevote::geometry

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/normals.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace posevote::geometry {
+
+PointMatrix face_normals(const PointMatrix& points, const FaceMatrix& faces) {
+  check_faces(points, faces);
+  // In double: the cross products of tiny triangles far from the origin would lose their direction.
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> sums(points.rows(), 3);
+  sums.setZero();
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::Vector3d a = points.row(faces(f, 0)).cast<double>();
+    const Eigen::Vector3d b = points.row(faces(f, 1)).cast<double>();
+    const Eigen::Vector3d c = points.row(faces(f, 2)).cast<double>();
+    const Eigen::Vector3d twice_area = (b - a).cross(c - a);
+    if (!twice_area.allFinite()) continue;
+    for (int corner = 0; corner < 3; ++corner) sums.row(faces(f, corner)) += twice_area.transpose();
+  }
+  for (Eigen::Index i = 0; i < sums.rows(); ++i)
+    if (const double length = sums.row(i).norm(); length > 0) sums.row(i) /= length;
+  return sums.cast<float>();
+}
+
+void normalise(PointMatrix& normals) {
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    const double length = normals.row(i).cast<double>().norm();
+    if (std::isfinite(length) && length > 1e-12)
+      normals.row(i) = (normals.row(i).cast<double>() / length).cast<float>();
+    else
+      normals.row(i).setZero();
+  }
+}
+
+void turn_toward(const Eigen::Vector3f& viewpoint, const PointMatrix& points,
+                 PointMatrix& normals) {
+  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+    if (normals.row(i).dot(viewpoint.transpose() - points.row(i)) < 0) normals.row(i) *= -1.0F;
+}
+
+Cloud without_points(const Cloud& cloud) {
+  Cloud out;
+  out.viewpoint = cloud.viewpoint;
+  out.image = cloud.image;
+  out.pixels = cloud.pixels;
+  out.dropped = cloud.dropped;
+  return out;
+}
+
+std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals) {
+  std::vector<std::uint32_t> rows;
+  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+    if (!normals.row(i).isZero() && normals.row(i).allFinite() && points.row(i).allFinite())
+      rows.push_back(static_cast<std::uint32_t>(i));
+  if (rows.empty())
+    throw std::runtime_error("none of its " + std::to_string(points.rows()) +
+                             " points has a usable normal");
+  return rows;
+}
+
+Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
+  const std::vector<std::uint32_t> kept = oriented_rows(cloud.points, normals);
+  Cloud out = without_points(cloud);
+  const bool all = std::ssize(kept) == normals.rows();
+  out.points = all ? cloud.points : PointMatrix(cloud.points(kept, Eigen::all));
+  out.normals = all ? normals : PointMatrix(normals(kept, Eigen::all));
+  out.dropped += static_cast<std::size_t>(cloud.points.rows()) - kept.size();
+  return out;
+}
+
+void require_normals(const Cloud& cloud) {
+  if (cloud.normals.rows() != cloud.points.rows())
+    throw std::runtime_error("its points have no normals: put a normals node before this one");
+}
+
+void check_faces(const PointMatrix& points, const FaceMatrix& faces) {
+  if (faces.rows() == 0 || faces.maxCoeff() < points.rows()) return;
+  throw std::runtime_error("a face refers to point " + std::to_string(faces.maxCoeff()) + " of " +
+                           std::to_string(points.rows()) + " (counted from 0)");
+}
+
+}  // namespace posevote::geometry

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/outline.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "graph/parallel.hpp"
+#include "nodes/geometry/grid.hpp"
+
+namespace posevote::geometry {
+
+Outline outline_of(const Cloud& model, float reach) {
+  Outline outline{reach, std::vector<std::uint8_t>(static_cast<std::size_t>(model.points.rows()))};
+  const float near = reach / 2;
+  const PointGrid grid(model.points, near);
+  graph::parallel_for(outline.ends.size(), 256, [&](std::size_t i) {
+    std::uint8_t& ends = outline.ends[i];
+    for (int k = 0; k < kOutlineDirections; ++k) {
+      const Eigen::Vector3f place = place_ahead(model, static_cast<Eigen::Index>(i), k, reach);
+      bool goes_on = false;
+      grid.for_each_within(place, near, [&](std::uint32_t, float) { goes_on = true; });
+      if (!goes_on) ends = static_cast<std::uint8_t>(ends | 1U << k);
+    }
+  });
+  return outline;
+}
+
+Eigen::Vector3f place_ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {
+  const Eigen::Vector3f normal = cloud.normals.row(i).transpose();
+  const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
+  const float angle =
+      2 * std::numbers::pi_v<float> * static_cast<float>(direction) / kOutlineDirections;
+  return cloud.points.row(i).transpose() + reach * (std::cos(angle) * u + std::sin(angle) * v);
+}
+
+}  // namespace posevote::geometry

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stable sort by an unsigned key, for the hundred thousands of points that are sorted into cells:
+// several times as fast as std::sort, because most keys differ in few bits.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace posevote::geometry {
+
+/// Bits that order as the number does; not for NaN.
+inline std::uint32_t ordered_bits(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value);
+  return (bits >> 31) != 0 ? ~bits : bits | 0x80000000U;
+}
+
+/// A key for what 64 bits do not hold, as places of clouds with points far away.
+__extension__ using LargeNumber = unsigned __int128;
+
+/// Sorts in ascending key(item), an unsigned number; equals stay in their order. Least significant
+/// digit first; digits that all keys share cost nothing.
+template <class Item, class KeyOf>
+void radix_sort(std::vector<Item>& items, const KeyOf& key) {
+  if (items.empty()) return;
+  using Key = decltype(key(items.front()));
+  static_assert(static_cast<Key>(-1) > Key{0}, "unsigned");
+  constexpr int kDigit = 11;  // bits
+  constexpr std::size_t kMask = (1U << kDigit) - 1;
+  const auto digit = [&key](const Item& item, unsigned shift) {
+    return static_cast<std::size_t>(key(item) >> shift) & kMask;
+  };
+  Key differing = 0;
+  for (const Item& item : items) differing |= key(item) ^ key(items.front());
+  std::vector<Item> sorted(differing == 0 ? 0 : items.size());
+  for (unsigned shift = 0; shift < 8 * sizeof(Key); shift += kDigit) {
+    if ((static_cast<std::size_t>(differing >> shift) & kMask) == 0) continue;
+    std::array<std::size_t, kMask + 1> place{};
+    for (const Item& item : items) ++place[digit(item, shift)];
+    std::size_t sum = 0;
+    for (std::size_t& count : place) count = std::exchange(sum, sum + count);
+    for (const Item& item : items) sorted[place[digit(item, shift)]++] = item;
+    items.swap(sorted);
+  }
+}
+
+}  // namespace posevote::geometry

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/range_view.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace posevote::geometry {
+namespace {
+
+constexpr float kTrusted = 0.9F;     // share of points that must look like a single view
+constexpr float kMinCosine = 0.26F;  // 75 deg off the axis: a plane image ends here
+constexpr float kFootprint = 0.75F;  // half-width a point covers, x spacing: neighbours overlap
+constexpr int kMaxCells = 2000;      // per side
+constexpr int kMaxHalfCells = 8;     // a point right before the sensor does not fill the image
+
+/// Directions with range in z: (x / z, y / z, range); range 0 for what is not in the image.
+Eigen::Vector3f project(const Eigen::Vector3f& in_image_frame) {
+  const float range = in_image_frame.norm();
+  if (!(in_image_frame.z() > kMinCosine * range)) return Eigen::Vector3f::Zero();
+  return {in_image_frame.x() / in_image_frame.z(), in_image_frame.y() / in_image_frame.z(), range};
+}
+
+float median_range(const std::vector<Eigen::Vector3f>& image_points) {
+  std::vector<float> ranges;
+  ranges.reserve(image_points.size());
+  for (const Eigen::Vector3f& p : image_points) ranges.push_back(p.z());
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
+
+}  // namespace
+
+RangeView::RangeView(const Cloud& scan, float resolution)
+    : viewpoint_(scan.viewpoint), image_(scan.image) {
+  if (!(resolution > 0) || !find_axis(scan, resolution)) return;
+  std::vector<Eigen::Vector3f> image_points;
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
+    const Eigen::Vector3f p = to_image(scan.points.row(i).transpose());
+    if (p.z() > resolution) image_points.push_back(p);
+  }
+  const auto expected = kTrusted * static_cast<float>(scan.points.rows());
+  if (static_cast<float>(image_points.size()) < expected) return;
+  lay_out(image_points, resolution / median_range(image_points));
+  for (const Eigen::Vector3f& p : image_points) splat(p, kFootprint * resolution / p.z());
+}
+
+bool RangeView::find_axis(const Cloud& scan, float resolution) {
+  const Eigen::Index count = scan.points.rows();
+  if (count == 0 || scan.normals.rows() != count) return false;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  Eigen::Index facing = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Vector3f ray = scan.points.row(i).transpose() - viewpoint_;
+    const float range = ray.norm();
+    if (!(range > resolution) || !std::isfinite(range)) continue;
+    axis += (ray / range).cast<double>();
+    if (scan.normals.row(i).dot(ray.transpose()) <= 0) ++facing;
+  }
+  if (static_cast<float>(facing) < kTrusted * static_cast<float>(count)) return false;
+  if (axis.norm() < 0.5 * static_cast<double>(count)) return false;
+  const Eigen::Vector3f z = axis.normalized().cast<float>();
+  R_image_scan_ =
+      Eigen::Quaternionf::FromTwoVectors(z, Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  return true;
+}
+
+Eigen::Vector3f RangeView::to_image(const Eigen::Vector3f& point) const {
+  return project(R_image_scan_ * (point - viewpoint_));
+}
+
+void RangeView::lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell) {
+  Eigen::Vector2f low = image_points.front().head<2>(), high = low;
+  for (const Eigen::Vector3f& p : image_points) {
+    low = low.cwiseMin(p.head<2>());
+    high = high.cwiseMax(p.head<2>());
+  }
+  cell_ = std::max(cell, (high - low).maxCoeff() / static_cast<float>(kMaxCells));
+  origin_ = low;
+  width_ = static_cast<int>((high.x() - low.x()) / cell_) + 1;
+  height_ = static_cast<int>((high.y() - low.y()) / cell_) + 1;
+  range_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0F);
+}
+
+void RangeView::splat(const Eigen::Vector3f& image_point, float half_width) {
+  const int reach = std::min(kMaxHalfCells, static_cast<int>(std::lround(half_width / cell_)));
+  const int u = static_cast<int>((image_point.x() - origin_.x()) / cell_);
+  const int v = static_cast<int>((image_point.y() - origin_.y()) / cell_);
+  for (int y = std::max(0, v - reach); y <= std::min(height_ - 1, v + reach); ++y)
+    for (int x = std::max(0, u - reach); x <= std::min(width_ - 1, u + reach); ++x) {
+      float& range = range_[cell_at(x, y)];
+      if (range == 0 || image_point.z() < range) range = image_point.z();
+    }
+}
+
+bool RangeView::is_outside(const Eigen::Vector3f& point) const {
+  if (image_.isEmpty()) return false;
+  const Eigen::Vector3f ray = point - viewpoint_;
+  return !(ray.z() > 0) || !image_.contains(ray.head<2>() / ray.z());
+}
+
+float RangeView::measured_range(const Eigen::Vector3f& point) const {
+  if (!usable()) return 0;
+  const Eigen::Vector3f p = to_image(point);
+  if (p.z() == 0) return 0;
+  const Eigen::Vector2f cell = (p.head<2>() - origin_) / cell_;
+  if (!(cell.minCoeff() >= 0) || !(cell.x() < static_cast<float>(width_)) ||
+      !(cell.y() < static_cast<float>(height_)))
+    return 0;
+  return range_[cell_at(static_cast<int>(cell.x()), static_cast<int>(cell.y()))];
+}
+
+}  // namespace posevote::geometry

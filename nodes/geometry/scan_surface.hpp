@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of a scan that no detection has explained yet, with what is asked of it again and again:
+// the nearest point, and whether a posed model point could have been seen at all.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/geometry/nearest_index.hpp"
+
+namespace posevote::geometry {
+
+/// A point with its unit normal.
+struct OrientedPoint {
+  Eigen::Vector3f point, normal;
+};
+
+/// Row `i` of a cloud, moved by T.
+OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T);
+
+/// Reading is safe from many threads.
+class ScanSurface {
+ public:
+  /// The points of `scan`; those without a normal are never found. `single_view`: whether the scan
+  /// is what one sensor at its viewpoint saw (RangeView::usable); if not, a point counts as visible
+  /// whichever way it looks. `reach`: the distance that is asked for most [m].
+  ScanSurface(const Cloud& scan, bool single_view, float reach);
+
+  /// From now on, points with explained[row] are not found either.
+  void take_out(const std::vector<char>& explained);
+
+  const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
+  /// Whether a surface with this orientation turns its outside to the sensor.
+  bool faces_sensor(const OrientedPoint& p) const;
+  /// The nearest scan point, at most `distance` away, if its normal agrees with p's within 45 deg.
+  std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
+  /// The same, whichever way it looks.
+  std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
+
+ private:
+  PointMatrix points_, normals_;
+  std::vector<char> gone_;  // per row: explained or without a normal
+  Eigen::Vector3f viewpoint_;
+  bool single_view_;
+  NearestIndex index_;
+};
+
+}  // namespace posevote::geometry

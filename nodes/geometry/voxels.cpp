@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/voxels.hpp"
+
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/radix_sort.hpp"
+
+namespace posevote::geometry {
+namespace {
+
+[[noreturn]] void throw_too_large(double extent, double leaf) {
+  std::ostringstream text;
+  text << "the cloud spans " << extent << " m, too much for voxels of " << leaf
+       << " m: wrong unit, or points far away?";
+  throw std::runtime_error(text.str());
+}
+
+struct Extent {
+  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d high = -low;
+
+  double largest() const { return (high - low).maxCoeff(); }
+};
+
+Extent extent_of(const PointMatrix& points, const std::vector<std::uint32_t>& rows) {
+  Extent extent;
+  for (const std::uint32_t i : rows) {
+    const Eigen::Array3d point = points.row(i).transpose().cast<double>();
+    extent.low = extent.low.min(point);
+    extent.high = extent.high.max(point);
+  }
+  return extent;
+}
+
+/// A point and the number of its voxel, which counts along x, then y, then z.
+template <class Number>
+struct Member {
+  Number voxel;
+  std::uint32_t index;
+};
+
+template <class Number>
+Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+               const Extent& extent, const Eigen::Array3d& counts, double per_leaf) {
+  const auto columns = static_cast<Number>(counts.x()), lines = static_cast<Number>(counts.y());
+  std::vector<Member<Number>> members(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Array3d point = points.row(rows[i]).transpose().cast<double>();
+    const Eigen::Array3d cell = (point - extent.low) * per_leaf;
+    members[i] = {
+        (static_cast<Number>(cell.z()) * lines + static_cast<Number>(cell.y())) * columns +
+            static_cast<Number>(cell.x()),
+        rows[i]};
+  }
+  radix_sort(members, [](const Member<Number>& one) { return one.voxel; });
+  Voxels voxels;
+  voxels.order.reserve(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (i == 0 || members[i].voxel != members[i - 1].voxel) voxels.starts.push_back(i);
+    voxels.order.push_back(members[i].index);
+  }
+  voxels.starts.push_back(members.size());
+  return voxels;
+}
+
+}  // namespace
+
+Eigen::RowVector3d Voxels::centroid(const PointMatrix& points, std::size_t voxel) const {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  const std::span<const std::uint32_t> members = (*this)[voxel];
+  for (const std::uint32_t i : members) sum += points.row(i).cast<double>();
+  return sum / static_cast<double>(members.size());
+}
+
+PointMatrix Voxels::centroids(const PointMatrix& points) const {
+  PointMatrix centroids(static_cast<Eigen::Index>(size()), 3);
+  for (std::size_t v = 0; v < size(); ++v)
+    centroids.row(static_cast<Eigen::Index>(v)) = centroid(points, v).cast<float>();
+  return centroids;
+}
+
+Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+                      float leaf) {
+  if (rows.empty()) return {{}, {0}};
+  const double per_leaf = 1 / static_cast<double>(leaf);
+  const Extent extent = extent_of(points, rows);
+  const Eigen::Array3d counts = ((extent.high - extent.low) * per_leaf).floor() + 1;
+  if (!(counts.maxCoeff() < 4e9)) throw_too_large(extent.largest(), static_cast<double>(leaf));
+  return counts.prod() < 4e9 ? grouped<std::uint32_t>(points, rows, extent, counts, per_leaf)
+                             : grouped<LargeNumber>(points, rows, extent, counts, per_leaf);
+}
+
+Voxels group_by_voxel(const PointMatrix& points, float leaf) {
+  return group_by_voxel(points, finite_rows(points), leaf);
+}
+
+}  // namespace posevote::geometry

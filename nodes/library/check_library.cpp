@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/library/check_library.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace posevote::library {
+namespace {
+
+void require(bool sound, const std::string& what) {
+  if (!sound) throw std::runtime_error(what);
+}
+
+void require_length(float value, const std::string& what) {
+  require(std::isfinite(value) && value > 0,
+          what + " is " + std::to_string(value) + " m, expected more than 0");
+}
+
+void require_count(Eigen::Index count, Eigen::Index expected, const std::string& what) {
+  require(count == expected,
+          std::to_string(count) + " " + what + ", expected " + std::to_string(expected));
+}
+
+/// `or_zero`: an unusable normal is (0, 0, 0).
+void require_unit(const PointMatrix& normals, bool or_zero, const std::string& what) {
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    const float squared = normals.row(i).squaredNorm();
+    require(std::abs(squared - 1) < 1e-3F || (or_zero && squared == 0),
+            what + " " + std::to_string(i) + " has a squared length of " + std::to_string(squared) +
+                ", expected 1");
+  }
+}
+
+void check_cloud(const Cloud& cloud) {
+  require(cloud.points.rows() > 0, "a cloud has no points");
+  require(cloud.points.allFinite() && cloud.viewpoint.allFinite(),
+          "a cloud has points that are not finite");
+  if (cloud.normals.rows() > 0) require_count(cloud.normals.rows(), cloud.points.rows(), "normals");
+  require_unit(cloud.normals, true, "normal");
+  require(cloud.faces.rows() == 0 || cloud.faces.maxCoeff() < cloud.points.rows(),
+          "a face names a point that is not there");
+}
+
+void check_features(const FeatureSet& features) {
+  require_count(features.normals.rows(), features.points.rows(), "feature normals");
+  require_count(features.descriptors.rows(), features.points.rows(), "descriptors");
+  require(features.points.allFinite(), "feature points are not finite");
+  require_unit(features.normals, false, "feature normal");
+}
+
+/// Points lie in the bounding box, so within half its diagonal, give or take rounding.
+void require_inside(const PointMatrix& points, const Model& model, const std::string& what) {
+  const auto offsets = points.rowwise() - model.center.transpose();
+  require(points.rows() == 0 || offsets.rowwise().norm().maxCoeff() <= 0.501F * model.diagonal,
+          what + " lie outside of the bounding box");
+}
+
+void check_model(const Model& model) {
+  require_length(model.diagonal, "the diagonal");
+  require(model.center.allFinite(), "the centre is not finite");
+  check_cloud(model.cloud);
+  check_features(model.features);
+  require_inside(model.cloud.points, model, "points");
+  require_inside(model.features.points, model, "feature points");
+  for (const NearSymmetry& one : model.near_symmetries.items) {
+    require(one.motion.matrix().allFinite() && one.motion.linear().isUnitary(1e-6),
+            "a near symmetry is no motion");
+    require(one.is_within(model.cloud.points.rows()),
+            "a near symmetry names a point that is not there");
+  }
+  require_length(model.outline.reach, "the outline's reach");
+  require_count(static_cast<Eigen::Index>(model.outline.ends.size()), model.cloud.points.rows(),
+                "points in the outline");
+}
+
+}  // namespace
+
+void check_library(const ModelLibrary& library) {
+  require_length(library.scale.resolution, "the resolution");
+  require(!library.models.empty(), "there are no models");
+  const Model* before = nullptr;
+  for (const auto& model : library.models) {
+    require(model != nullptr, "a model is missing");
+    require(!before || before->obj_id < model->obj_id, "the models' obj_ids do not ascend");
+    before = model.get();
+    try {
+      check_model(*model);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("model '" + model->name + "': " + error.what());
+    }
+  }
+}
+
+}  // namespace posevote::library

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motions that carry a model nearly onto itself: a carton turned by half, a cup upside down. From
+// most sides such poses look alike and get each other's votes, so who finds one should look at the
+// others too (object_search.hpp). Motions after which nothing differs are symmetries: nobody can
+// tell the poses apart, and they are left out.
+//
+// Rotations about the centre, spread evenly over SO(3) (Alexa, "Super-Fibonacci Spirals", CVPR
+// 2022), are rated by the share of points that come to lie near a point whose normal agrees; the
+// best are refined by ICP and rated anew, finely. Of each motion that is kept it notes the points
+// of the cloud by which the two differ; so the cloud must be the one that the model is made of.
+// Cost: some 600 000 searches for a neighbour, and two for each motion and point.
+//
+//   find_near_symmetries: {in: [cloud, scale], out: near_symmetries, least: 0.6}
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "graph/parallel.hpp"
+#include "graph/registry.hpp"
+#include "nodes/data/model.hpp"
+#include "nodes/geometry/icp.hpp"
+
+namespace posevote::train {
+namespace {
+
+using Eigen::Isometry3d;
+
+constexpr std::size_t kRotations = 1200;  // each within some 15 deg of any rotation
+constexpr std::size_t kRefined = 60;
+constexpr Eigen::Index kSample = 500;  // points that rate a motion
+constexpr float kCoarse = 0.05F;       // x diagonal: near, before ICP
+constexpr float kFine = 2;             // x resolution: near, after it
+constexpr double kSymmetric = 0.99;    // share of points from which on nothing differs
+constexpr double kSameMotion = 20 * std::numbers::pi / 180;
+
+struct Params {
+  double least = 0.6;
+  int most = 12;
+};
+
+struct Rated {
+  Isometry3d motion = Isometry3d::Identity();
+  double overlap = 0;
+};
+
+Eigen::Quaterniond spiral_rotation(std::size_t i, std::size_t count) {
+  constexpr double kPhi = std::numbers::sqrt2, kPsi = 1.533751168755204288118041;
+  const double s = static_cast<double>(i) + 0.5, turn = 2 * std::numbers::pi * s;
+  const double t = s / static_cast<double>(count);
+  const double r = std::sqrt(t), R = std::sqrt(1 - t);
+  const double alpha = turn / kPhi, beta = turn / kPsi;
+  return {R * std::cos(beta), r * std::sin(alpha), r * std::cos(alpha), R * std::sin(beta)};
+}
+
+Cloud every(const Cloud& cloud, Eigen::Index count) {
+  const Eigen::Index stride = cloud.points.rows() / count + 1;
+  const auto rows = Eigen::seq(0, Eigen::last, stride);
+  Cloud sample;
+  sample.points = cloud.points(rows, Eigen::all);
+  sample.normals = cloud.normals(rows, Eigen::all);
+  return sample;
+}
+
+/// Share of the sample's points of which, moved, `is_on(point)` holds.
+template <class IsOn>
+double share_of(const Cloud& sample, const Isometry3d& motion, const IsOn& is_on) {
+  const Eigen::Isometry3f T = motion.cast<float>();
+  int on = 0;
+  for (Eigen::Index i = 0; i < sample.points.rows(); ++i)
+    on += is_on(geometry::posed_point(sample, i, T));
+  return on / static_cast<double>(sample.points.rows());
+}
+
+/// Share of the sample that a motion brings near to the surface.
+double overlap_of(const Cloud& sample, const geometry::ScanSurface& surface,
+                  const Isometry3d& motion, float distance) {
+  return share_of(sample, motion, [&](const geometry::OrientedPoint& p) {
+    return surface.nearest_compatible(p, distance).has_value();
+  });
+}
+
+void sort_by_overlap(std::vector<Rated>& motions) {
+  std::stable_sort(motions.begin(), motions.end(),
+                   [](const Rated& a, const Rated& b) { return a.overlap > b.overlap; });
+}
+
+/// The rotations that bring most of the model near to itself.
+std::vector<Rated> rate_rotations(const Cloud& cloud, const Eigen::Vector3d& center, float near) {
+  const Cloud sample = every(cloud, kSample), coarse = every(cloud, 4 * kSample);
+  const geometry::ScanSurface surface(coarse, false, near);
+  std::vector<Rated> motions(kRotations);
+  graph::parallel_for(kRotations, 8, [&](std::size_t i) {
+    motions[i].motion = Eigen::Translation3d(center) * spiral_rotation(i, kRotations) *
+                        Eigen::Translation3d(-center);
+    motions[i].overlap = overlap_of(sample, surface, motions[i].motion, near);
+  });
+  sort_by_overlap(motions);
+  motions.resize(kRefined);
+  return motions;
+}
+
+class Judge {
+ public:
+  Judge(const Cloud& cloud, float fine)
+      : sample_(every(cloud, kSample)), surface_(cloud, false, fine), fine_(fine) {}
+
+  Rated refine(const Rated& start, float near) const {
+    const Isometry3d motion = geometry::icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
+    return {motion, overlap_of(sample_, surface_, motion, fine_)};
+  }
+  /// Whether two motions lead to poses that look the same.
+  bool same(const Isometry3d& a, const Isometry3d& b) const {
+    const Isometry3d between = a.inverse() * b;
+    if (Eigen::AngleAxisd(between.linear()).angle() < kSameMotion) return true;
+    return share_of(sample_, between,
+                    [this](const geometry::OrientedPoint& p) { return is_on(p); }) >= kSymmetric;
+  }
+  /// The points of the cloud that a motion carries off the surface.
+  std::vector<std::uint32_t> carried_off(const Cloud& cloud, const Isometry3d& motion) const {
+    const Eigen::Isometry3f T = motion.cast<float>();
+    std::vector<std::uint32_t> off;
+    for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
+      if (!is_on(geometry::posed_point(cloud, i, T))) off.push_back(static_cast<std::uint32_t>(i));
+    return off;
+  }
+
+ private:
+  /// Normals aside, which are anyone's at an edge.
+  bool is_on(const geometry::OrientedPoint& p) const {
+    return surface_.nearest_left(p.point, fine_).has_value();
+  }
+
+  Cloud sample_;
+  geometry::ScanSurface surface_;
+  float fine_;
+};
+
+NearSymmetries find_near_symmetries(const Cloud& cloud, const Scale& scale, const Params& params) {
+  if (cloud.points.rows() == 0 || cloud.normals.rows() != cloud.points.rows()) return {};
+  const Eigen::RowVector3f low = cloud.points.colwise().minCoeff();
+  const Eigen::RowVector3f high = cloud.points.colwise().maxCoeff();
+  const Eigen::Vector3d center = (0.5F * (low + high)).transpose().cast<double>();
+  const float near = kCoarse * (high - low).norm();
+  std::vector<Rated> motions = rate_rotations(cloud, center, near);
+  const Judge judge(cloud, kFine * scale.resolution);
+  graph::parallel_for(motions.size(), 1,
+                      [&](std::size_t i) { motions[i] = judge.refine(motions[i], near); });
+  sort_by_overlap(motions);
+  NearSymmetries found;
+  for (const Rated& one : motions) {
+    if (one.overlap < params.least || found.items.size() == static_cast<std::size_t>(params.most))
+      break;
+    const bool known =
+        judge.same(Isometry3d::Identity(), one.motion) ||
+        std::any_of(found.items.begin(), found.items.end(), [&](const NearSymmetry& other) {
+          return judge.same(other.motion, one.motion);
+        });
+    if (!known)
+      found.items.push_back({one.motion, judge.carried_off(cloud, one.motion),
+                             judge.carried_off(cloud, one.motion.inverse())});
+  }
+  return found;
+}
+
+const auto registered =
+    graph::register_node("find_near_symmetries", find_near_symmetries,
+                         "Motions that carry a model nearly onto itself, and where the two differ.")
+        .input("cloud")
+        .input("scale")
+        .output("near_symmetries")
+        .param("least", &Params::least, "",
+               "Share of the surface that must come to lie on the surface again.",
+               graph::in_range(0.1, 1))
+        .param("most", &Params::most, "", "Motions to keep; 0: none.", graph::in_range(0, 100));
+
+}  // namespace
+}  // namespace posevote::train

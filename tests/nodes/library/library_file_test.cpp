@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/library/library_file.hpp"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <xxhash.h>
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include "nodes/library/library_payload.hpp"
+#include "tests/nodes/match/small_library.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kKey(32, 'a');
+
+ModelLibrary example(const std::string& search = "exact") {
+  return make_library({{0, 10, 11}, {100}, {20, 30}}, {{"search", search}}, {3, 1, 9});
+}
+
+std::optional<ModelLibrary> decode_or_refuse(const std::string& payload) {
+  try {
+    return library::decode_library(payload);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+/// What save_library would write around that payload.
+std::string file_around(const std::string& payload) {
+  XXH128_canonical_t hash;
+  XXH128_canonicalFromHash(&hash, XXH3_128bits(payload.data(), payload.size()));
+  std::string checksum;
+  for (const unsigned char byte : hash.digest)
+    for (const int digit : {byte >> 4, byte & 15})
+      checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
+  library::ByteWriter out;
+  for (const char letter : std::string("POSEVLIB")) out.put(letter);
+  out.put(std::uint32_t{5});
+  out.put(std::string_view(kKey));
+  out.put(std::string_view(checksum));
+  out.put(std::string_view(payload));
+  return out.bytes();
+}
+
+/// Why the file is not loaded; "" if it is.
+std::string refusal(const fs::path& file, const std::string& key = kKey) {
+  std::string why_not;
+  return library::load_library(file, key, why_not) ? "" : why_not;
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+}  // namespace
+
+TEST_CASE("a library comes back from its file byte by byte", "[match]") {
+  const TemporaryFolder folder;
+  const ModelLibrary library = example();
+  library::save_library(library, folder / "a", kKey);
+  std::string why_not;
+  const auto loaded = library::load_library(folder / "a", kKey, why_not);
+  REQUIRE(loaded);
+  library::save_library(*loaded, folder / "b", kKey);
+  CHECK(read_text(folder / "a") == read_text(folder / "b"));
+  CHECK(loaded->scale.resolution == library.scale.resolution);
+  REQUIRE(loaded->models.size() == 3);
+  CHECK(loaded->models[2]->name == "m9");
+  CHECK(loaded->models[2]->obj_id == 9);
+  CHECK(loaded->models[2]->cloud.points == library.models[2]->cloud.points);
+  CHECK(loaded->models[2]->cloud.faces == library.models[2]->cloud.faces);
+  CHECK(loaded->models[2]->cloud.dropped == 4);
+  CHECK(loaded->models[2]->features.normals == library.models[2]->features.normals);
+  CHECK(loaded->models[2]->center == library.models[2]->center);
+  CHECK(loaded->models[2]->diagonal == library.models[2]->diagonal);
+  CHECK(loaded->models[2]->outline.ends == library.models[2]->outline.ends);
+  REQUIRE(loaded->models[2]->near_symmetries.items.size() == 1);
+  const NearSymmetry& symmetry = loaded->models[2]->near_symmetries.items[0];
+  CHECK(symmetry.motion.matrix() == library.models[2]->near_symmetries.items[0].motion.matrix());
+  CHECK(symmetry.carried_off == std::vector<std::uint32_t>{0, 2});
+  CHECK(symmetry.uncovered == std::vector<std::uint32_t>{1});
+  const DescriptorMatrix queries = features_at({3, 33, 77}).descriptors;
+  const auto before = library.index->nearest_two(queries);
+  const auto after = loaded->index->nearest_two(queries);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(before[i].row[0] == after[i].row[0]);
+    CHECK(before[i].squared[1] == after[i].squared[1]);
+  }
+}
+
+TEST_CASE("how a library is searched is kept in its file", "[match]") {
+  const TemporaryFolder folder;
+  library::save_library(
+      make_library({{1, 2}}, {{"search", "approximate"}, {"trees", "3"}, {"checks", "99"}}),
+      folder / "a", kKey);
+  std::string why_not;
+  const auto loaded = library::load_library(folder / "a", kKey, why_not);
+  REQUIRE(loaded);
+  CHECK(loaded->index->options().trees == 3);
+  CHECK(loaded->index->options().checks == 99);
+  CHECK_FALSE(loaded->index->reproducible());
+}
+
+TEST_CASE("any damaged byte and any missing end is noticed", "[match]") {
+  const TemporaryFolder folder;
+  library::save_library(example(), folder / "a", kKey);
+  const std::string good = read_text(folder / "a");
+  int loaded = 0;
+  for (std::size_t i = 0; i < good.size(); i += i < 120 ? 1 : 17) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ (1 << (i % 8)));
+    loaded += refusal(folder.write("bad", bad)).empty();
+    loaded += refusal(folder.write("bad", good.substr(0, i))).empty();
+  }
+  CHECK(loaded == 0);
+  CHECK_THAT(refusal(folder.write("bad", good + "x")), Catch::Contains("damaged"));
+  CHECK(refusal(folder.write("bad", good)).empty());
+}
+
+TEST_CASE("the payload is checked by itself: a checksum proves nothing", "[match]") {
+  for (const std::string search : {"exact", "kd_tree", "approximate"}) {
+    INFO(search);
+    const std::string good = library::encode_library(example(search));
+    // A file can hold anything under a right checksum; none of these may crash or allocate wildly.
+    for (std::size_t i = 0; i < good.size(); ++i)
+      for (const char value : {'\0', '\x7F', '\xFF'}) {
+        std::string bad = good;
+        bad[i] = value;
+        decode_or_refuse(bad);
+        if (i + 8 > good.size()) continue;
+        std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(i), 8, value);
+        decode_or_refuse(bad);
+      }
+    CHECK_THROWS_WITH(library::decode_library(good + "x"), Catch::Contains("damaged"));
+    CHECK_NOTHROW(library::decode_library(good));
+  }
+}
+
+TEST_CASE("whatever a payload holds, what is decoded from it is sound", "[match]") {
+  const std::string good = library::encode_library(example());
+  std::mt19937 random(11);
+  int decoded = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::string bad = good;
+    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
+      bad[random() % bad.size()] ^= static_cast<char>(1U << (random() % 8));
+    if (random() % 8 == 0) bad.resize(random() % bad.size());
+    if (const auto library = decode_or_refuse(bad)) {
+      ++decoded;
+      CHECK(library::encode_library(*library) ==
+            bad);  // nothing was read otherwise than it was written
+    }
+  }
+  CHECK(decoded > 0);  // a name, a descriptor or a hundredth of a millimetre may be anything
+  CHECK(decoded < 3600);
+}
+
+TEST_CASE("a file with a right checksum over a wrong payload is refused by name", "[match]") {
+  const TemporaryFolder folder;
+  ModelLibrary library = example();
+  const std::string payload = library::encode_library(library);
+  const float infinite = std::numeric_limits<float>::infinity();
+  std::string bad = payload;
+  std::memcpy(bad.data(), &infinite, sizeof infinite);  // the resolution comes first
+  CHECK(refusal(folder.write("good", file_around(payload))).empty());
+  CHECK_THAT(refusal(folder.write("bad", file_around(bad))),
+             Catch::Contains("damaged: the resolution is inf m"));
+}
+
+TEST_CASE("search options that are out of range are refused, whatever the search", "[match]") {
+  for (const std::string search : {"exact", "kd_tree", "approximate"}) {
+    const std::string good = library::encode_library(example(search));
+    const auto with = [&](std::size_t option, std::int32_t value) {
+      std::string bad = good;
+      const std::size_t place = sizeof(float) + sizeof(std::uint64_t) + search.size();
+      std::memcpy(&bad[place + option * sizeof value], &value, sizeof value);
+      return bad;
+    };
+    INFO(search);
+    for (const std::int32_t trees : {0, -1, 65, std::numeric_limits<std::int32_t>::max()})
+      CHECK_THROWS_WITH(library::decode_library(with(0, trees)),
+                        Catch::Contains("damaged: trees is"));
+    for (const std::int32_t checks : {1, 0, -5})
+      CHECK_THROWS_WITH(library::decode_library(with(1, checks)),
+                        Catch::Contains("damaged: checks is"));
+    CHECK_NOTHROW(library::decode_library(with(0, 64)));
+    CHECK_NOTHROW(library::decode_library(with(1, std::numeric_limits<std::int32_t>::max())));
+  }
+}
+
+TEST_CASE("a library that is not sound is not written", "[match]") {
+  ModelLibrary library = example();
+  library.index = nullptr;
+  CHECK_THROWS_WITH(library::encode_library(library), Catch::Contains("no index"));
+  library = example();
+  library.scale.resolution = 0;
+  CHECK_THROWS_WITH(library::encode_library(library), Catch::Contains("the resolution is 0"));
+}
+
+TEST_CASE("fused features come back with their blocks", "[match]") {
+  ModelLibrary library = example();
+  for (auto& model : library.models) {
+    Model fused = *model;
+    fused.features.descriptors = fused.features.descriptors.replicate(1, 3).eval();
+    fused.features.blocks = {1, 2};
+    model = std::make_shared<const Model>(std::move(fused));
+  }
+  library.index = descriptors::index_of(library.models, {});
+  std::string payload = library::encode_library(library);
+  CHECK(library::decode_library(payload).models[1]->features.blocks == descriptors::Blocks{1, 2});
+  const std::uint32_t width =
+      3;  // of the last model's last block, before centre, diagonal, near symmetries and outline
+  const std::size_t center = 2 * sizeof(std::uint64_t) + 3 * sizeof(float);
+  const std::size_t outline = sizeof(float) + sizeof(std::uint64_t) + 3;
+  const std::size_t points = 2 * sizeof(std::uint64_t) + 3 * sizeof(std::uint32_t);
+  const std::size_t motions =
+      sizeof(std::uint64_t) + 2 * sizeof(std::uint64_t) + 16 * sizeof(double) + points;
+  std::memcpy(&payload[payload.size() - outline - motions - sizeof(float) - center - sizeof width],
+              &width, sizeof width);
+  CHECK_THROWS_WITH(library::decode_library(payload),
+                    Catch::Contains("damaged: the features of 'm1'"));
+}
+
+TEST_CASE("a file of another kind, version or key is refused by name", "[match]") {
+  const TemporaryFolder folder;
+  library::save_library(example(), folder / "a", kKey);
+  CHECK_THAT(refusal(folder / "a", std::string(32, 'b')), Catch::Contains("other models"));
+  CHECK_THAT(refusal(folder / "none"), Catch::Contains("not a file"));
+  CHECK_THAT(refusal(folder.path()), Catch::Contains("not a file"));
+  CHECK_THAT(refusal(folder.write("text", "ply\nformat ascii 1.0\n")),
+             Catch::Contains("not a model library"));
+  CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
+  std::string old = read_text(folder / "a");
+  old[8] = 77;
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 5"));
+}
+
+TEST_CASE("two threads may write the same file at once", "[match]") {
+  const TemporaryFolder folder;
+  const ModelLibrary library = example();
+  int refused = 0;
+  {
+    const auto write = [&] {
+      for (int i = 0; i < 50; ++i) library::save_library(library, folder / "a", kKey);
+    };
+    std::jthread first(write), second(write);
+    for (int i = 0; i < 50; ++i) {
+      const std::string why = refusal(folder / "a");
+      refused += !why.empty() && why != "is not a file";  // not there yet
+    }
+  }
+  CHECK(refused == 0);
+  CHECK(refusal(folder / "a").empty());
+  CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("a library that cannot be written is an error that names the file", "[match]") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(library::save_library(example(), folder / "no" / "a", kKey),
+                    Catch::Contains("no/a"));
+  fs::create_directories(folder / "taken" / "x");
+  CHECK_THROWS_WITH(library::save_library(example(), folder / "taken", kKey),
+                    Catch::Contains("taken"));
+  CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("a full disk leaves nothing behind, and the old file as it was", "[match]") {
+  const TemporaryFolder folder;
+  library::save_library(example(), folder / "a", kKey);
+  const auto old_handler = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
+  rlimit small = limit;
+  small.rlim_cur = 100;
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::string what;
+  try {
+    library::save_library(make_library({{1}}), folder / "a", kKey);
+  } catch (const std::runtime_error& error) {
+    what = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, old_handler);
+  CHECK_THAT(what, Catch::Contains("cannot be written: File too large"));
+  CHECK(files_in(folder.path()) == 1);
+  CHECK(refusal(folder / "a").empty());
+}
+
+TEST_CASE("the hash of files depends on every byte, the order and the parameters", "[match]") {
+  const TemporaryFolder folder;
+  const fs::path a = folder.write("a", "ab"), b = folder.write("b", "c");
+  const fs::path c = folder.write("c", "a"), d = folder.write("d", "bc");
+  const std::string hash = library::hash_files({a, b}, "x");
+  CHECK(hash.size() == 32);
+  CHECK(hash.find_first_not_of("0123456789abcdef") == std::string::npos);
+  CHECK(hash == library::hash_files({a, b}, "x"));
+  CHECK(hash != library::hash_files({b, a}, "x"));
+  CHECK(hash != library::hash_files({a, b}, "y"));
+  CHECK(hash != library::hash_files({c, d}, "x"));
+  CHECK(hash != library::hash_files({a}, "cx"));
+  CHECK(library::hash_files({}, "") != library::hash_files({}, "x"));
+  CHECK_THROWS_WITH(library::hash_files({folder / "none"}, ""),
+                    Catch::Contains("none: cannot be opened"));
+  CHECK_THROWS_WITH(library::hash_files({folder.path()}, ""), Catch::Contains("cannot be opened"));
+}
+
+TEST_CASE("the hash of a large file covers all of it", "[match]") {
+  const TemporaryFolder folder;
+  std::string text(300000, 'x');
+  const std::string hash = library::hash_files({folder.write("a", text)}, "");
+  text.back() = 'y';
+  CHECK(hash != library::hash_files({folder.write("a", text)}, ""));
+}
