@@ -89,17 +89,4 @@ GridRun PointGrid::find(std::int64_t y, std::int64_t z) const {
   return {};
 }
 
-std::optional<Neighbour> PointGrid::nearest(const Eigen::Vector3f& center, float radius) const {
-  std::optional<Neighbour> best;
-  // Most queries have a neighbour close by: look there first, and only else in the whole ball.
-  for (const float reach : {std::min(radius, 0.5F * cell_), std::min(radius, 2 * cell_), radius}) {
-    for_each_within(center, reach, [&best](std::uint32_t index, float squared) {
-      if (!best || squared < best->squared || (squared == best->squared && index < best->index))
-        best = Neighbour{index, squared};
-    });
-    if (best) break;
-  }
-  return best;
-}
-
 }  // namespace posevote::geometry

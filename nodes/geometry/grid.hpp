@@ -11,19 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/geometry/grid_run.hpp"
 
 namespace posevote::geometry {
-
-/// A point near a query.
-struct Neighbour {
-  std::uint32_t index = 0;
-  float squared = 0;  ///< squared distance [m^2]
-};
 
 /// Immutable once built; safe to read from many threads. Points that are not finite are never
 /// found.
@@ -67,9 +60,6 @@ class PointGrid {
 
   /// Cuts the rods into runs of at most `length` [m] along x; `length` >= 0.
   std::vector<GridRun> pieces(float length) const;
-
-  /// The nearest point within `radius`; of several at one distance the one with the smallest index.
-  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float radius) const;
 
  private:
   struct Slot {

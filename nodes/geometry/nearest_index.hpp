@@ -17,6 +17,12 @@
 
 namespace posevote::geometry {
 
+/// A point near a query.
+struct Neighbour {
+  std::uint32_t index = 0;
+  float squared = 0;  ///< squared distance [m^2]
+};
+
 /// Immutable once built; safe to read from many threads. Points that are not finite are never
 /// found.
 class NearestIndex {

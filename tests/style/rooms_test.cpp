@@ -70,7 +70,11 @@ std::set<std::string> nodes_with(const std::string& header) {
     before = seen.size();
     for (const auto& [path, file] : files())
       for (const std::string& included : file.includes)
-        if (seen.contains(included)) seen.insert(path);
+        if (seen.contains(included)) {
+          seen.insert(path);
+          const fs::path declared = fs::path(path).replace_extension(".hpp");
+          if (files().contains(declared.string())) seen.insert(declared.string());
+        }
   }
   std::set<std::string> nodes;
   for (const std::string& path : seen)

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/nearest_index.hpp"
 #include "tools/simulate/physics.hpp"
 #include "tools/simulate/shapes.hpp"
 
@@ -43,11 +43,12 @@ Eigen::Matrix3Xd points_of(const Body& body) {
 /// How deep points of `body` lie inside of `other`, to a vertex' spacing [m].
 double reach_into(const Body& body, const Body& other) {
   const Eigen::Matrix3Xd in_other = other.T_world_body.inverse() * points_of(body);
-  const geometry::PointGrid surface(other.mesh->points, 0.01F);
+  const geometry::NearestIndex surface(other.mesh->points, 0.01F);
+  const std::vector<char> none_hidden(static_cast<std::size_t>(other.mesh->points.rows()), 0);
   double deepest = 0;
   for (Eigen::Index v = 0; v < in_other.cols(); v += 400)
     if (winding_number(*other.mesh, in_other.col(v)) > 0.5)
-      if (const auto near = surface.nearest(in_other.col(v).cast<float>(), 0.1F))
+      if (const auto near = surface.nearest(in_other.col(v).cast<float>(), 0.1F, none_hidden))
         deepest = std::max(deepest, std::sqrt(double{near->squared}));
   return deepest;
 }

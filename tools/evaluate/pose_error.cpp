@@ -3,15 +3,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nanoflann.hpp>
 #include <numeric>
 
 #include "tools/evaluate/extreme_points.hpp"
 #include "tools/evaluate/rotation.hpp"
 
 namespace posevote {
+
+struct PoseMeter::Tree {
+  nanoflann::KDTreeEigenMatrixAdaptor<PointMatrix, 3, nanoflann::metric_L2_Simple> points;
+
+  explicit Tree(const PointMatrix& all) : points(3, std::cref(all)) {}
+
+  double distance_to_nearest(const Eigen::Vector3d& from) const {
+    const Eigen::Vector3f query = from.cast<float>();
+    Eigen::Index nearest = 0;
+    float squared = 0;
+    points.query(query.data(), 1, &nearest, &squared);
+    return std::sqrt(double{squared});
+  }
+};
+
 namespace {
 
-constexpr Eigen::Index kMostPoints = 1000, kFewPoints = 200;
+constexpr Eigen::Index kMostPoints = 1000;
 
 Eigen::Matrix3Xd sample_of(const PointMatrix& points, Eigen::Index most) {
   const Eigen::Index count = std::min(points.rows(), most);
@@ -19,15 +35,6 @@ Eigen::Matrix3Xd sample_of(const PointMatrix& points, Eigen::Index most) {
   for (Eigen::Index i = 0; i < count; ++i)
     sample.col(i) = points.row(i * points.rows() / count).transpose().cast<double>();
   return sample;
-}
-
-/// Distance to the nearest point. `some` are points too: the nearest of them bounds the search to a
-/// ball that holds few others.
-double nearest_distance(const geometry::PointGrid& grid, const Eigen::Matrix3Xd& some,
-                        const Eigen::Vector3d& point) {
-  const double bound = std::sqrt((some.colwise() - point).colwise().squaredNorm().minCoeff());
-  const auto near = grid.nearest(point.cast<float>(), static_cast<float>(1.00001 * bound));
-  return near ? std::sqrt(double{near->squared}) : bound;
 }
 
 double farthest(const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& A,
@@ -69,11 +76,10 @@ std::vector<Eigen::Isometry3d> symmetry_steps(const TrueObject& object) {
 PoseMeter::PoseMeter(const TrueObject& object)
     : object_(&object),
       sample_(sample_of(object.points, kMostPoints)),
-      few_(sample_of(object.points, kFewPoints)),
       extreme_(extreme_points(object.points)),
       all_(object.points.transpose().cast<double>()),
       steps_(symmetry_steps(object)),
-      grid_(object.points, static_cast<float>(object.diameter / 15)) {}
+      tree_(std::make_shared<const Tree>(object.points)) {}
 
 double PoseMeter::center(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const {
   return (T_true * object_->center - T_found * object_->center).norm();
@@ -99,7 +105,7 @@ double PoseMeter::add(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& 
   const Eigen::Isometry3d T_found_true = T_found.inverse() * T_true;
   double sum = 0;
   for (Eigen::Index i = 0; i < sample_.cols(); ++i)
-    sum += nearest_distance(grid_, few_, T_found_true * sample_.col(i));
+    sum += tree_->distance_to_nearest(T_found_true * sample_.col(i));
   return sum / static_cast<double>(sample_.cols());
 }
 

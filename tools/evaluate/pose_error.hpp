@@ -2,9 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 
-#include "nodes/geometry/grid.hpp"
 #include "tools/evaluate/ground_truth.hpp"
 
 namespace posevote {
@@ -39,13 +39,15 @@ class PoseMeter {
               const Camera& camera) const;
 
  private:
+  struct Tree;  // k-d tree of all model points (nanoflann)
+
   template <class Measure>
   double least_over_symmetries(const Measure& measure) const;
 
   const TrueObject* object_;
-  Eigen::Matrix3Xd sample_, few_, extreme_, all_;
+  Eigen::Matrix3Xd sample_, extreme_, all_;
   std::vector<Eigen::Isometry3d> steps_;
-  geometry::PointGrid grid_;
+  std::shared_ptr<const Tree> tree_;
 };
 
 }  // namespace posevote

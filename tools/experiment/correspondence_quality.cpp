@@ -30,7 +30,10 @@ std::array<double, kColumns> parse_row(const std::string& line, const std::strin
 }  // namespace
 
 CorrespondenceJudge::CorrespondenceJudge(Cloud model, double radius)
-    : model_(std::move(model)), radius_(radius), grid_(model_.points, static_cast<float>(radius)) {}
+    : model_(std::move(model)),
+      radius_(radius),
+      index_(model_.points, static_cast<float>(2 * radius)),
+      none_hidden_(static_cast<std::size_t>(model_.points.rows()), 0) {}
 
 CorrespondenceQuality CorrespondenceJudge::judge(const std::filesystem::path& csv,
                                                  const Eigen::Isometry3d& T_scene_model) const {
@@ -48,7 +51,8 @@ CorrespondenceQuality CorrespondenceJudge::judge(const std::filesystem::path& cs
     const Eigen::Vector3d normal = T_model_scene.linear() * columns.col(1);
     ++quality.count;
     inliers += (scene - columns.col(2)).norm() <= radius_;
-    const auto near = grid_.nearest(scene.cast<float>(), static_cast<float>(2 * radius_));
+    const auto near =
+        index_.nearest(scene.cast<float>(), static_cast<float>(2 * radius_), none_hidden_);
     if (!near) continue;
     const Eigen::Vector3d truth = model_.normals.row(near->index).transpose().cast<double>();
     if (truth.isZero()) continue;

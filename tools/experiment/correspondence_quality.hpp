@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/nearest_index.hpp"
 
 namespace posevote {
 
@@ -28,7 +28,8 @@ class CorrespondenceJudge {
  private:
   Cloud model_;
   double radius_;
-  geometry::PointGrid grid_;
+  geometry::NearestIndex index_;
+  std::vector<char> none_hidden_;
 };
 
 }  // namespace posevote
