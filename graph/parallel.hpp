@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one parallel loop of the project. Isolated: a thread that waits here does not start another
-// frame's work (FACTS: bodies were re-entered up to 6 deep otherwise). Deterministic as long as
-// each index writes only what belongs to it.
+// frame's work (without, bodies were seen re-entered up to 6 deep). Deterministic as long as each
+// index writes only what belongs to it.
 #pragma once
 
 #include <cstddef>

@@ -7,7 +7,7 @@
 
 namespace posevote {
 
-/// Of an even number, the mean of the two in the middle; 0 of nothing.
+/// The one in the middle, or the mean of the two there; 0 of nothing.
 inline double median(std::vector<double> samples) {
   if (samples.empty()) return 0;
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);

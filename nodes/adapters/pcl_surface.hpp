@@ -73,7 +73,7 @@ class PclSupport {
   /// PCL's descriptors would find them too, but build a tree anew for that in every chunk, and
   /// write a line about every missing one.
   void find_frames();
-  /// Of rows that are described, after find_frames.
+  /// The frames of rows that are described, after find_frames.
   std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> frames(const PclRows& rows) const;
 
  private:

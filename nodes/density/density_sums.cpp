@@ -5,7 +5,7 @@
 // cells within their reach. They look in groups, which are of like rotations because the votes of a
 // cell are sorted by those.
 //
-// Of one set at its own votes, each pair is looked at once: a vote meets those behind it in its own
+// Where one set is weighed at its own votes, each pair is looked at once: a vote meets those behind it in its own
 // cell and those of the cells behind, and what it weighs there is added there as well.
 #include "nodes/density/density_sums.hpp"
 
@@ -35,7 +35,7 @@ constexpr std::uint32_t kFewestQueries = 16, kFewestSorted = 3000;
 constexpr double kVotesPerCell = 16;
 constexpr double kMostReach = 1.8;  // of a group, x one's: flat from 1.4 to 2
 
-// Of batches, for the threads; what short ones add to is mostly others' sums.
+// At most so many ranges of batches, for the threads; what short ones add to is mostly others' sums.
 constexpr std::size_t kMostRanges = 256;
 
 std::vector<Batch> make_batches(const SortedVotes& queries) {
@@ -113,7 +113,7 @@ void BatchWorker::run(const Batch& batch) {
   const std::uint32_t count = batch.queries.end - batch.queries.begin;
   sort_by_rotation(own_, count);
   sort_by_rotation(ahead_, count);
-  // Of one set, the queries are the first votes of the table.
+  // Within one set, the queries are the first votes of the table.
   const std::uint32_t first = one_set() ? 0 : batch.queries.begin;
   if (one_set())
     back_.resize(std::max(back_.size(), own_.size() + ahead_.size() + kScanPadding), 0);
@@ -155,7 +155,7 @@ void BatchWorker::give_back() {
 }
 
 void BatchWorker::collect(const Batch& batch) {
-  // Of one set, what lies before has met these queries already.
+  // Within one set, what lies before has met these queries already.
   const std::uint32_t first = one_set() ? batch.queries.begin : 0;
   const std::vector<IndexRange>& ranges = search_.around(batch.cells, one_set());
   std::size_t most = 0;

@@ -84,7 +84,7 @@ class Query {
     const F dz = hn::Sub(tz_, hn::LoadU(d, votes[2] + i));
     const F dt2 = hn::Add(hn::Add(squared(dx), squared(dy)), squared(dz));
     const Rotations q = rotations_from(votes, i);
-    // Of q and -q the nearer; a product with 1 or -1 is exact, fused or not.
+    // The nearer of q and -q counts; a product with 1 or -1 is exact, fused or not.
     const F sign = hn::CopySignToAbs(hn::Set(d, 1), cosine(q));
     const F wx =
         hn::Add(squared(hn::NegMulAdd(sign, q.w, qw_)), squared(hn::NegMulAdd(sign, q.x, qx_)));
@@ -95,7 +95,8 @@ class Query {
   }
 
  private:
-  /// Of the angle between the quaternions. Fused: it only says where to look and which sign.
+  /// The cosine of the angle between the quaternions. Fused: it only says where to look and which
+  /// sign to take.
   HWY_INLINE F cosine(const Rotations& q) const {
     const F sum = hn::MulAdd(qx_, q.x, hn::Mul(qw_, q.w));
     return hn::MulAdd(qz_, q.z, hn::MulAdd(qy_, q.y, sum));
@@ -111,7 +112,7 @@ struct Found {
   std::size_t count;
 };
 
-/// Of the first kQueries. To look first and weigh then spares the processor branches that it cannot
+/// Finds the votes near the first kQueries. To look first and weigh then spares the processor branches that it cannot
 /// foresee; a group shares the loads.
 template <std::size_t kQueries>
 HWY_INLINE void find(const Query (&queries)[kGroup], const VoteColumns& votes, const Blocks& blocks,
@@ -207,7 +208,7 @@ std::size_t collect(const Kernel& kernel, const VoteColumns& votes, const VotePo
   return count;
 }
 
-/// Of one coordinate.
+/// The least and the largest number of a range of one coordinate.
 HWY_INLINE void range_of(const float* numbers, IndexRange range, float* low, float* high) {
   const Floats d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));

@@ -34,7 +34,7 @@ constexpr std::uint32_t kBlock = 16;
 /// Queries that look at votes together.
 constexpr std::uint32_t kGroup = 4;
 
-/// Of the votes that a group looks at, each is looked at once.
+/// The blocks that a group looks at, each once.
 struct Blocks {
   const IndexRange* ranges;  ///< of blocks
   std::size_t count;         ///< of ranges
@@ -70,7 +70,7 @@ struct VoteBox {
   float low[3], high[3];
 };
 
-/// Of a range that is not empty.
+/// The box around a range that is not empty.
 VoteBox bounding_box(const VoteColumns& votes, IndexRange range);
 
 /// Copies the votes of the range that can be neighbours of a vote in the box to `to`, whose

@@ -30,7 +30,7 @@ struct CellRange {
 
 constexpr auto kAxes = {&TranslationCell::x, &TranslationCell::y, &TranslationCell::z};
 
-/// Of usable votes, at least one.
+/// The cells that usable votes, at least one, lie in.
 CellRange range_of(const VoteSet& votes, const std::vector<std::uint32_t>& usable,
                    Bandwidth bandwidth) {
   VotePoint low = vote_point(votes, usable.front()), high = low;

@@ -26,7 +26,7 @@ class VoteTable {
   std::size_t stride() const { return stride_; }
   VoteColumns columns() const { return {buffer_.get(), stride_}; }
 
-  /// Of a table of `count` votes: what the last block holds beyond them is nobody's neighbour.
+  /// Ends a table of `count` votes: what its last block holds beyond them is nobody's neighbour.
   void close(std::size_t count) {
     for (; count % kBlock != 0; ++count)
       for (std::size_t c = 0; c < kVoteColumns; ++c)

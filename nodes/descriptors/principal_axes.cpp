@@ -10,7 +10,7 @@
 namespace posevote::descriptors {
 namespace {
 
-// Of short descriptors. Measured on laser scans and depth images, one model and six: shorter ones
+// The length of short descriptors. Measured on laser scans and depth images, one model and six: shorter ones
 // leave more rows to be compared in full than they save.
 constexpr Eigen::Index kLength = 64;
 static_assert(kLength % kColumnStep == 0);

@@ -14,7 +14,7 @@ namespace posevote::descriptors {
 
 class PrincipalAxes {
  public:
-  /// Of the rows' distribution; at least one row. Where few axes do not hold most of it or take too
+  /// The axes of the rows' distribution; at least one row. Where few axes do not hold most of it or take too
   /// long to find, and where descriptors are short already, only the mean is taken off.
   explicit PrincipalAxes(const DescriptorMatrix& rows);
 

@@ -19,7 +19,7 @@ constexpr std::size_t kFewestSlots = 64;
 constexpr std::size_t kPointsPerBlock = 8;  // at least, on average: more memory serves nobody
 constexpr std::size_t kFreeBlocks = 128;    // of which that is not asked
 
-/// Of a block's places. Blocks so far apart that their places wrap share a key, which costs looks
+/// The key of a block's place. Blocks so far apart that their places wrap share a key, which costs looks
 /// at points that are too far, no more.
 std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   std::uint64_t key = 0;
@@ -28,7 +28,7 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return key;
 }
 
-/// Of a cube in its block; those along z follow one another.
+/// The number of a cube in its block; those along z follow one another.
 std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto in_block = [](std::int64_t place) { return place & (kSide - 1); };
   return static_cast<std::uint32_t>((in_block(x) * kSide + in_block(y)) * kSide + in_block(z));

@@ -23,7 +23,7 @@ struct PlaneMoments {
   float count;  ///< of points, unweighted
 };
 
-/// Of all points in the runs. `center`: x, y and z; `radius` > 0 [m].
+/// The moments of all points in the runs. `center`: x, y and z; `radius` > 0 [m].
 PlaneMoments plane_moments(const WeightedPoints& points, const GridRun* runs, std::size_t run_count,
                            const float* center, float radius);
 

@@ -36,7 +36,7 @@ Spread spread_of(const Eigen::Matrix3d& m) {
   const double determinant = m(0, 0) * (m(1, 1) * m(2, 2) - yz) - xy * m(2, 2) - xz * m(1, 1) +
                              2 * m(0, 1) * m(0, 2) * m(1, 2);
   Spread spread{smallest_root(trace, minors, determinant), Eigen::Vector3d::Zero()};
-  // Of the two other eigenvalues, their sum and product tell the ratio.
+  // Sum and product of the two other eigenvalues tell their ratio.
   const double sum = trace - spread.least, product = minors - spread.least * sum;
   if (!(product > kLine * sum * sum)) return spread;
   const Eigen::Matrix3d left = m - spread.least * Eigen::Matrix3d::Identity();

@@ -13,7 +13,7 @@ struct Spread {
                            ///< the second eigenvalue is at most 1e-4 of the third
 };
 
-/// Of a covariance: symmetric, no eigenvalue below 0 but by rounding. Where the two smallest are
+/// The spread that a covariance tells: symmetric, no eigenvalue below 0 but by rounding. Where the two smallest are
 /// alike, any direction between theirs. What is not finite lies on a line.
 Spread spread_of(const Eigen::Matrix3d& covariance);
 

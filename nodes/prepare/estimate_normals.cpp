@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Normals of a scan, toward the sensor (paper, section 4, "Preprocessing"; METHOD: "Normals carry
-// the whole method").
+// Normals of a scan, toward the sensor (paper, section 4, "Preprocessing"). They carry the whole
+// method: a vote lands where two normals say.
 //
 // Each point takes the first that gives it one: the file's own normal, its faces (area-weighted),
 // the plane through its neighbours. Faces that stand 15 deg off the planes at half of the points

@@ -17,7 +17,7 @@ namespace {
 constexpr float kNowhere = 1e9F;       // no measurement; finite, so that times 0 it is 0
 constexpr float kMostSpacings = 12;    // in a radius: more than a plane needs
 constexpr float kTogether = 1.0F / 3;  // of the radius, between pixels that share a plane
-// Of a window, on average: near points before a far ground have large ones.
+// Pixels of a window, on average: near points before a far ground have large ones.
 constexpr float kMostPixels = 4 * (2 * kMostSpacings) * (2 * kMostSpacings);
 // On smooth ground only the corners of tiles get planes of their own (image_tile.hpp): half the
 // time, and no more off than noise makes it, for a window is three tiles wide.
@@ -135,7 +135,7 @@ class PixelPlanes {
     places_.push_back({i, pixel});
   }
 
-  /// Of two pixels, the second of which may be outside or without a measurement.
+  /// The distance of two pixels, the second of which may be outside or without a measurement.
   float distance(std::uint32_t a, std::uint32_t b) const {
     if (b >= weights_.size() || weights_[b] == 0) return kNowhere;
     return (point(a) - point(b)).norm();
@@ -180,7 +180,7 @@ class PixelPlanes {
     return corners;
   }
 
-  /// Of a block's two pixels, in a tile of that size; 0 to 1.
+  /// Where the middle of a block's two pixels lies in a tile of that size; 0 to 1.
   static float middle_of(int first, int size) {
     return std::min(1.0F,
                     (static_cast<float>(first) + 0.5F) / static_cast<float>(std::max(1, size)));

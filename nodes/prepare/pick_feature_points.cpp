@@ -2,7 +2,7 @@
 // A uniform subset of a cloud: the points that get a descriptor (paper, section 4: some 10 000 a
 // model).
 //
-// Of each cube of edge `spacing` the point nearest to the centroid of the cube's points. If that
+// Picks the point of each cube of edge `spacing` that is nearest to the centroid of the cube's points. If that
 // gives more than `max_points`, the spacing grows until they fit. O(n log n).
 //
 //   pick_feature_points: {in: [cloud, scale], out: points, spacing: 2.5, max_points: 10000}
@@ -27,8 +27,8 @@ std::uint32_t most_central(const PointMatrix& points, const geometry::Voxels& vo
                            std::size_t voxel) {
   const Eigen::RowVector3d centroid = voxels.centroid(points, voxel);
   const std::span<const std::uint32_t> members = voxels[voxel];
-  // Of two equally central points the one with smaller coordinates, wherever it stands in the
-  // input.
+  // The one of two equally central points with smaller coordinates goes first, wherever it stands
+  // in the input.
   const auto rank = [&](std::uint32_t i) {
     const double distance = (points.row(i).cast<double>() - centroid).squaredNorm();
     return std::tuple(distance, points(i, 0), points(i, 1), points(i, 2));

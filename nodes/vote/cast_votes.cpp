@@ -5,10 +5,11 @@
 // Buch, Kiforenko, Kraft, ICCV 2017, section 3.1. Given the model's centre c, a model point p with
 // normal n and its match p', n' in the scene:
 //
-//   delta = (p - c).n     r = c - (p - delta n)     q = p' - delta n' (1)-(3) r'_k  = |r| (u cos
-//   a_k + (n' x u) sin a_k)      t_k = q + r'_k                           (4), (5) F = [r/|r|, n x
-//   r/|r|, n]                       F'_k = [r'_k/|r|, n' x r'_k/|r|, n']     (6), (7) R_k = F'_k
-//   F^T
+//   delta = (p - c).n      r = c - (p - delta n)      q = p' - delta n'     (1)-(3)
+//   r'_k  = |r| (u cos a_k + (n' x u) sin a_k)        t_k = q + r'_k        (4), (5)
+//   F     = [r/|r|, n x r/|r|, n]                                           (6)
+//   F'_k  = [r'_k/|r|, n' x r'_k/|r|, n']                                   (7)
+//   R_k   = F'_k F^T
 //
 // The paper prints R = F'^T F, which does not carry n to n'. t_k is where the *centre* lands. Where
 // the normal passes through the centre (|r| = 0: spheres, ends of cylinders) all t_k coincide, any

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The density of votes like those of a real scan: 10 500 correspondences x 60 votes whose
 // translation balls of 1 cm hold some 5 800 votes, of which some 75 pass the rotation test
-// (METHOD.md, section 3). The textbook version, a k-d tree on the translations and a linear
+// as a laser scan of UWA has them. The textbook version, a k-d tree on the translations and a linear
 // rotation test, runs on a sample of the votes beside it.
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/problem.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/nearest_index.hpp"
 #include "nodes/load/png_depth.hpp"
 #include "nodes/load/read_cloud.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -60,13 +60,14 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
   for (const TrueInstance& instance : truth.instances) {
     const Cloud scan = load::read_cloud(
         folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
-    const geometry::PointGrid grid(scan.points, 0.005F);
+    const geometry::NearestIndex surface(scan.points, 0.01F);
+    const std::vector<char> none_hidden(static_cast<std::size_t>(scan.points.rows()), 0);
     const TrueObject& object = truth.objects.at(instance.obj_id);
     std::vector<float> distances;
     for (Eigen::Index i = 0; i < object.points.rows(); i += 3) {
       const Eigen::Vector3d point =
           instance.T_scene_model * object.points.row(i).transpose().cast<double>();
-      if (const auto near = grid.nearest(point.cast<float>(), 0.02F))
+      if (const auto near = surface.nearest(point.cast<float>(), 0.02F, none_hidden))
         distances.push_back(std::sqrt(near->squared));
     }
     REQUIRE(distances.size() > 500);

@@ -31,7 +31,7 @@ void train_once(Contestant& contestant, const ModelFiles& models);
 /// Throws std::runtime_error naming the scan, the node and the cause where it fails.
 void run_once(Contestant& contestant, const SceneEntry& scene);
 
-/// Of this process so far [MB].
+/// The most memory that this process has taken so far [MB].
 std::size_t peak_memory_mb();
 
 }  // namespace posevote

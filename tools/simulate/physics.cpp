@@ -68,7 +68,7 @@ std::vector<std::set<std::uint32_t>> cut_up(const Cloud& mesh) {
   return list;
 }
 
-/// Of the corners, those that reach farthest in any of the 26 directions of a cube's neighbours:
+/// The corners that reach farthest in any of the 26 directions of a cube's neighbours:
 /// about their convex hull, of a size that collisions are found fast with.
 std::set<std::uint32_t> extremes(const Cloud& mesh, const std::set<std::uint32_t>& corners) {
   std::set<std::uint32_t> found;
