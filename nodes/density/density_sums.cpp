@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "graph/parallel.hpp"
+#include "nodes/density/near_box.hpp"
 #include "nodes/density/scan_votes.hpp"
 #include "nodes/density/vote_section.hpp"
 #include "nodes/density/vote_table.hpp"

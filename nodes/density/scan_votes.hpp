@@ -65,18 +65,4 @@ void scan_votes(const Kernel& kernel, const VoteColumns& votes, const VotePoint*
 std::size_t collect_near(const Kernel& kernel, const VoteColumns& columns, const VotePoint& query,
                          IndexRange range, std::uint32_t* places, std::uint32_t* weights);
 
-/// Bounding box of translations.
-struct VoteBox {
-  float low[3], high[3];
-};
-
-/// The box around a range that is not empty.
-VoteBox bounding_box(const VoteColumns& votes, IndexRange range);
-
-/// Copies the votes of the range that can be neighbours of a vote in the box to `to`, whose
-/// columns are `stride` apart, and their numbers to `numbers`; returns how many. Both have room for
-/// all and kScanPadding more.
-std::size_t copy_near(const Kernel& kernel, const VoteColumns& columns, IndexRange range,
-                      const VoteBox& box, float* to, std::size_t stride, std::uint32_t* numbers);
-
 }  // namespace posevote::density

@@ -156,15 +156,6 @@ void nearest_by_index(benchmark::State& state) {
   count_items(state, queries.rows());
 }
 
-void nearest_by_grid(benchmark::State& state) {
-  const geometry::PointGrid grid(setting().scan.cloud.points, 2 * kResolution);
-  const PointMatrix queries = posed_points();
-  for (auto _ : state)
-    for (Eigen::Index i = 0; i < queries.rows(); ++i)
-      benchmark::DoNotOptimize(grid.nearest(queries.row(i).transpose(), 2 * kResolution));
-  count_items(state, queries.rows());
-}
-
 void build_nearest_index(benchmark::State& state) {
   const PointMatrix& points = setting().scan.cloud.points;
   for (auto _ : state) benchmark::DoNotOptimize(geometry::NearestIndex(points, 2 * kResolution));
@@ -209,7 +200,6 @@ BENCHMARK_CAPTURE(match, exact, std::string("exact"))->Unit(benchmark::kMillisec
 BENCHMARK_CAPTURE(match, kd_tree_flann, std::string("kd_tree"))->Unit(benchmark::kMillisecond);
 BENCHMARK(build_nearest_index)->Unit(benchmark::kMillisecond);
 BENCHMARK(nearest_by_index)->Unit(benchmark::kMillisecond);
-BENCHMARK(nearest_by_grid)->Unit(benchmark::kMillisecond);
 BENCHMARK(outline)->Unit(benchmark::kMillisecond);
 BENCHMARK(score_pose)->Unit(benchmark::kMillisecond);
 BENCHMARK(refine_pose)->Unit(benchmark::kMillisecond);

@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "nodes/density/near_box.hpp"
 #include "nodes/density/rotation_cells.hpp"
 #include "nodes/density/scan_votes.hpp"
 #include "nodes/density/sorted_votes.hpp"
