@@ -18,7 +18,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 struct Params {
@@ -88,4 +88,4 @@ const auto registered =
         .check(check);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::load

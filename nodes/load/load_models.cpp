@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads the models of a run, in metres, each in its own frame, in the order given: point clouds or
-// meshes (.ply .pcd .obj .stl .off). Files are read in parallel. Fails with the names of all models
-// that could not be read.
+// meshes, in any format of nodes/formats/read_*.cpp. Files are read in parallel. Fails with the
+// names of all models that could not be read.
 //
 //   load_models: {in: model_files, out: model_meshes, unit: mm}
 #include <exception>
@@ -15,9 +15,9 @@
 #include "graph/registry.hpp"
 #include "nodes/data/extent.hpp"
 #include "nodes/data/files.hpp"
-#include "nodes/load/read_cloud.hpp"
+#include "nodes/formats/read_cloud.hpp"
 
-namespace posevote {
+namespace posevote::load {
 namespace {
 
 struct Params {
@@ -25,7 +25,7 @@ struct Params {
 };
 
 Cloud load_model(const std::filesystem::path& file, double metres) {
-  Cloud model = read_cloud(file, metres);
+  Cloud model = formats::read_cloud(file, metres);
   model_diagonal(model.points);  // here a model without one can be named
   return model;
 }
@@ -37,8 +37,8 @@ PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
   std::vector<std::string> problems(files.size());
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
-      models.slots[i] =
-          std::make_shared<const Cloud>(load_model(files[i].path, metres_per(params.unit)));
+      models.slots[i] = std::make_shared<const Cloud>(
+          load_model(files[i].path, formats::metres_per(params.unit)));
     } catch (const std::exception& error) {
       problems[i] = files[i].path.string() + ": " + error.what();
     }
@@ -58,4 +58,4 @@ const auto registered =
                graph::one_of({"mm", "m"}));
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::load

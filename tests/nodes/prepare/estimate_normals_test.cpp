@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "nodes/data/features.hpp"
-#include "nodes/load/read_cloud.hpp"
+#include "nodes/formats/read_cloud.hpp"
 #include "nodes/prepare/normals.hpp"
 #include "nodes/prepare/plane_normals.hpp"
 #include "nodes/prepare/winding.hpp"
@@ -169,7 +169,7 @@ TEST_CASE("estimate_normals on the Bunny with 3 % noise", "[prepare]") {
     WARN("skipped: no " << file);
     return;
   }
-  Cloud scan = read_cloud(file, 1);
+  Cloud scan = formats::read_cloud(file, 1);
   const PointMatrix truth = face_normals(scan.points, wind_outward(scan.points, scan.faces));
   scan.points = test::shaken(scan.points, 0.0075F);
   scan.normals = truth;  // carried along to tell which points remain; not used

@@ -13,6 +13,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;
+using posevote::formats::Rgb;
 using posevote::test::Picture;
 using posevote::test::TemporaryFolder;
 

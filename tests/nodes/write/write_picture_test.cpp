@@ -8,6 +8,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;
+using posevote::formats::Rgb;
 using posevote::test::make_detection;
 using posevote::test::make_library;
 using posevote::test::make_patch;
