@@ -6,23 +6,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <set>
+#include <map>
 #include <stdexcept>
 
+#include "nodes/formats/format.hpp"
 #include "tools/evaluate/dataset.hpp"
 
 namespace posevote {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_known_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  static const std::set<std::string> known{".ply", ".pcd", ".obj", ".stl", ".off", ".png"};
-  return known.contains(ending);
-}
 
 std::vector<fs::path> expand_glob(const std::string& pattern) {
   glob_t found{};
@@ -34,13 +27,15 @@ std::vector<fs::path> expand_glob(const std::string& pattern) {
 }
 
 /// A file stays as it is, even if it cannot be opened: that is for the frame to fail on.
-std::vector<fs::path> expand(const std::string& argument) {
+std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted) {
   std::vector<fs::path> paths;
   if (fs::is_directory(argument)) {
     for (const auto& entry : fs::directory_iterator(argument))
-      if (!entry.is_directory() && has_known_ending(entry.path())) paths.push_back(entry.path());
+      if (!entry.is_directory() && formats::has_ending(entry.path(), wanted))
+        paths.push_back(entry.path());
     if (paths.empty())
-      throw std::invalid_argument(argument + ": no ply, pcd, obj, stl, off or png file in it");
+      throw std::invalid_argument(argument + ": no " + formats::list_endings(wanted) +
+                                  " file in it");
   } else if (fs::exists(fs::symlink_status(argument))) {
     paths.emplace_back(argument);
   } else {
@@ -75,7 +70,7 @@ void name_scenes(std::vector<SceneEntry>& scenes) {
 std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
   std::vector<fs::path> paths;
   for (const std::string& argument : arguments)
-    for (fs::path& path : expand(argument)) paths.push_back(std::move(path));
+    for (fs::path& path : expand(argument, formats::Wanted::kAny)) paths.push_back(std::move(path));
   std::sort(paths.begin(), paths.end());
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   std::vector<SceneEntry> scenes;
@@ -112,7 +107,7 @@ ModelFiles list_models(const std::vector<std::string>& arguments) {
   ModelFiles models;
   std::map<int, fs::path> taken;
   for (const std::string& argument : arguments)
-    for (const fs::path& path : expand(argument)) {
+    for (const fs::path& path : expand(argument, formats::Wanted::kMeshes)) {
       if (!fs::is_regular_file(path))
         throw std::invalid_argument(path.string() + ": no such model file");
       const std::string stem = path.stem().string();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads the models of a run, in metres, each in its own frame, in the order given: point clouds or
-// meshes (.ply .pcd .obj .stl .off). Files are read in parallel. Fails with the names of all models
-// that could not be read.
+// meshes, in any format of nodes/formats/read_*.cpp. Files are read in parallel. Fails with the
+// names of all models that could not be read.
 //
 //   load_models: {in: model_files, out: model_meshes, unit: mm}
 #include <exception>
@@ -14,8 +14,8 @@
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
+#include "nodes/formats/read_cloud.hpp"
 #include "nodes/geometry/extent.hpp"
-#include "nodes/load/read_cloud.hpp"
 
 namespace posevote::load {
 namespace {
@@ -25,7 +25,7 @@ struct Params {
 };
 
 Cloud load_model(const std::filesystem::path& file, double metres) {
-  Cloud model = read_cloud(file, metres);
+  Cloud model = formats::read_cloud(file, metres);
   geometry::model_diagonal(model.points);  // here a model without one can be named
   return model;
 }
@@ -37,8 +37,8 @@ PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
   std::vector<std::string> problems(files.size());
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
-      models.slots[i] =
-          std::make_shared<const Cloud>(load_model(files[i].path, metres_per(params.unit)));
+      models.slots[i] = std::make_shared<const Cloud>(
+          load_model(files[i].path, formats::metres_per(params.unit)));
     } catch (const std::exception& error) {
       problems[i] = files[i].path.string() + ": " + error.what();
     }

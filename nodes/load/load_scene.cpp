@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads the scan of a frame, in metres, in the sensor's frame: a point cloud or mesh (.ply .pcd
-// .obj .stl .off), or a depth image (.png, 16-bit grey), which becomes the points it measured.
+// Loads the scan of a frame, in metres, in the sensor's frame: a point cloud or mesh, or a depth
+// image, which becomes the points it measured. The file's ending says how it is read:
+// nodes/formats/read_*.cpp.
 //
 // A depth image takes its camera from the data set; where that has none, from the parameters.
 // Points that are NaN or infinite are left out and counted. Linear in the size of the file. Fails,
@@ -12,7 +13,8 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
-#include "nodes/load/read_cloud.hpp"
+#include "nodes/formats/format.hpp"
+#include "nodes/formats/read_cloud.hpp"
 #include "nodes/load/read_depth.hpp"
 
 namespace posevote::load {
@@ -33,7 +35,8 @@ std::string check(const Params& params) {
 }
 
 Cloud load_scene(const SceneFile& file, const Params& params) {
-  if (lower_extension(file.path) != ".png") return read_cloud(file.path, metres_per(params.unit));
+  if (!formats::has_ending(file.path, formats::Wanted::kDepthImages))
+    return formats::read_cloud(file.path, formats::metres_per(params.unit));
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
   return read_depth(file.path, file.camera.value_or(given), {params.min_depth, params.max_depth});
 }

@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "nodes/load/file_bytes.hpp"
-#include "nodes/load/png_depth.hpp"
+#include "nodes/formats/depth_image.hpp"
 
 namespace posevote::load {
 namespace {
@@ -41,7 +40,7 @@ std::vector<float> depth_table(const Camera& camera, const DepthRange& range) {
   return depths;
 }
 
-Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const DepthImage& image) {
+Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const formats::DepthImage& image) {
   const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
   const Eigen::Vector2d low((-0.5 - camera.cx) / camera.fx, (-0.5 - camera.cy) / camera.fy);
   const Eigen::Vector2d high((width - 0.5 - camera.cx) / camera.fx,
@@ -53,7 +52,7 @@ Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const DepthImage& image) 
 
 Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
   check_camera(camera);
-  const DepthImage image = decode_depth_png(read_file(path).view());
+  const formats::DepthImage image = formats::read_depth_image(path);
   const std::vector<float> depths = depth_table(camera, range);
   Cloud cloud;
   cloud.points.resize(static_cast<Eigen::Index>(image.values.size()), 3);

@@ -13,8 +13,8 @@
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/model.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "nodes/pictures/canvas.hpp"
-#include "nodes/write/write_ply.hpp"
 
 namespace posevote::write {
 namespace {
@@ -23,7 +23,7 @@ struct Params {
   int every = 1;
 };
 
-Rgb to_rgb(const pictures::Colour& colour) {
+formats::Rgb to_rgb(const pictures::Colour& colour) {
   return {static_cast<std::uint8_t>(255 * colour.x()), static_cast<std::uint8_t>(255 * colour.y()),
           static_cast<std::uint8_t>(255 * colour.z())};
 }
@@ -47,7 +47,8 @@ void write_overlay(const Cloud& scan, const Detections& detections, const ModelL
   if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
   Cloud overlay;
   append(overlay, scan, Eigen::Isometry3f::Identity());
-  std::vector<Rgb> colours(static_cast<std::size_t>(scan.points.rows()), Rgb{160, 160, 155});
+  std::vector<formats::Rgb> colours(static_cast<std::size_t>(scan.points.rows()),
+                                    formats::Rgb{160, 160, 155});
   for (std::size_t i = 0; i < detections.items.size(); ++i) {
     const Detection& found = detections.items[i];
     const Model* model = find_model(library, found.obj_id);
@@ -57,7 +58,7 @@ void write_overlay(const Cloud& scan, const Detections& detections, const ModelL
                    to_rgb(pictures::distinct_colour(i)));
   }
   std::filesystem::create_directories(context.out / "overlays");
-  write_ply(context.out / "overlays" / (context.name + ".ply"), overlay, 1, colours);
+  formats::write_ply(context.out / "overlays" / (context.name + ".ply"), overlay, 1, colours);
 }
 
 const auto registered =

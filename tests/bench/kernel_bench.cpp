@@ -17,11 +17,11 @@
 #include "nodes/data/model.hpp"
 #include "nodes/data/votes.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/nearest_index.hpp"
-#include "nodes/load/read_cloud.hpp"
 #include "nodes/segment/measure_fit.hpp"
-#include "nodes/write/write_ply.hpp"
 #include "tests/support/run_node.hpp"
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/shapes.hpp"
@@ -84,13 +84,13 @@ void count_items(benchmark::State& state, Eigen::Index items) {
 struct PlyFile {
   std::filesystem::path path = std::filesystem::temp_directory_path() /
                                ("kernel_bench_" + std::to_string(getpid()) + ".ply");
-  PlyFile() { write::write_ply(path, setting().mesh); }
+  PlyFile() { formats::write_ply(path, setting().mesh); }
   ~PlyFile() { std::filesystem::remove(path); }
 };
 
 void read_ply(benchmark::State& state) {
   const PlyFile file;
-  for (auto _ : state) benchmark::DoNotOptimize(load::read_cloud(file.path, 1));
+  for (auto _ : state) benchmark::DoNotOptimize(formats::read_cloud(file.path, 1));
   count_items(state, setting().mesh.points.rows());
 }
 

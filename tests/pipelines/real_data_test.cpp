@@ -8,8 +8,8 @@
 #include <fstream>
 #include <regex>
 
-#include "nodes/load/read_cloud.hpp"
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "tests/support/command.hpp"
 
 using namespace posevote;
@@ -88,7 +88,7 @@ TEST_CASE("all four objects of a real laser scan, at any thread count", "[real]"
     REQUIRE(found.size() == 4);
     for (const nlohmann::json& detection : found) {
       const auto name = detection["model"].get<std::string>();
-      const Cloud model = load::read_cloud(data / "models" / (name + ".ply"), 1e-3);
+      const Cloud model = formats::read_cloud(data / "models" / (name + ".ply"), 1e-3);
       const PoseError error = difference(
           pose_of(detection), read_xf(data / "ground_truth" / (name + "-rs1.xf")), model);
       INFO(name << ": " << error.millimetres << " mm, " << error.degrees << " deg, density "
@@ -104,7 +104,7 @@ TEST_CASE("the Bunny onto itself under a random pose, without ICP", "[real]") {
   const std::filesystem::path file = real_data() / "bunny/bunny.ply";
   if (skipped(file)) return;
   const TemporaryFolder folder;
-  const Cloud bunny = load::read_cloud(file, 1);
+  const Cloud bunny = formats::read_cloud(file, 1);
   const std::string config = folder.write("bunny.yaml",
                                           "pipeline: recognize\n"
                                           "estimate_normals: {node: model_normals}\n"
@@ -119,7 +119,7 @@ TEST_CASE("the Bunny onto itself under a random pose, without ICP", "[real]") {
         ((truth.linear() * bunny.points.cast<double>().transpose()).colwise() + truth.translation())
             .transpose()
             .cast<float>();
-    write::write_ply(folder / "scan.ply", moved);
+    formats::write_ply(folder / "scan.ply", moved);
     std::filesystem::remove_all(folder / "out");
     const CommandResult run = run_posevote(
         folder, "run " + config + " --models " + file.string() + " --scenes " +

@@ -2,7 +2,7 @@
 // Each layout of data sets, read from tiny files; and what is said of contradictions.
 #include <catch2/catch.hpp>
 
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/evaluate/dataset.hpp"
 #include "tools/inputs.hpp"
@@ -21,7 +21,7 @@ void write_box(const std::filesystem::path& file) {
   for (int i = 0; i < 8; ++i)
     bar.points.row(i) << (i & 1 ? 30.F : 0.F), (i & 2 ? 40.F : 0.F), (i & 4 ? 120.F : 0.F);
   std::filesystem::create_directories(file.parent_path());
-  write::write_ply(file, bar);
+  formats::write_ply(file, bar);
 }
 
 std::string message_of(const TemporaryFolder& folder, const std::string& targets = "") {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;
@@ -29,8 +29,8 @@ class Set : public TemporaryFolder {
     for (int i = 0; i < 8; ++i)
       bar.points.row(i) << (i & 1 ? 110.F : -90.F), (i & 2 ? 20.F : -20.F), (i & 4 ? 10.F : -10.F);
     std::filesystem::create_directories(*this / "models");
-    write::write_ply(*this / "models/obj_000001.ply", bar);
-    write::write_ply(*this / "models/obj_000002.ply", bar);
+    formats::write_ply(*this / "models/obj_000001.ply", bar);
+    formats::write_ply(*this / "models/obj_000002.ply", bar);
     const std::string box =
         R"("diameter": 205, "min_x": -90, "min_y": -20, "min_z": -10, "size_x": 200, "size_y": 40, "size_z": 20)";
     write("models/models_info.json",

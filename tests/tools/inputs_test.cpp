@@ -10,7 +10,7 @@ using posevote::test::TemporaryFolder;
 
 TEST_CASE("scans are numbered by one sort over files, folders and globs", "[inputs]") {
   const TemporaryFolder folder;
-  for (const char* name : {"b/2.ply", "b/1.ply", "b/notes.txt", "a.pcd", "c/x.ply", "c/1.ply"})
+  for (const char* name : {"b/2.PLY", "b/1.ply", "b/notes.txt", "a.pcd", "c/x.ply", "c/1.ply"})
     folder.write(name, "");
   std::filesystem::create_symlink(folder / "nowhere", folder / "b/3.ply");
   const auto scenes = list_scenes(
@@ -29,7 +29,8 @@ TEST_CASE("an argument that matches nothing is named", "[inputs]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(list_scenes({"/nowhere/x.ply"}),
                     Catch::Contains("/nowhere/x.ply: no such file"));
-  CHECK_THROWS_WITH(list_scenes({folder.path().string()}), Catch::Contains("no ply"));
+  CHECK_THROWS_WITH(list_scenes({folder.path().string()}),
+                    Catch::Contains("no .obj, .off, .pcd, .ply, .png or .stl file"));
   CHECK_THROWS_WITH(list_models({"/nowhere/*.ply"}), Catch::Contains("/nowhere/*.ply"));
 }
 
@@ -44,6 +45,19 @@ TEST_CASE("obj_id comes from the name, else from the order; a clash is an error"
   CHECK(models[0].name == "chef");
   CHECK(models[1].obj_id == 9);
   CHECK_THROWS_WITH(list_models({plain, clash}), Catch::Contains("has obj_id 1, as has"));
+}
+
+TEST_CASE("a folder of models may hold their textures, a folder of scans depth images",
+          "[inputs]") {
+  const TemporaryFolder folder;
+  folder.write("chef.obj", "");
+  CHECK(list_scenes({folder.path().string()}).size() == 1);
+  folder.write("chef.png", "");
+  CHECK(list_models({folder.path().string()}).size() == 1);
+  CHECK(list_scenes({folder.path().string()}).size() == 2);
+  std::filesystem::remove(folder / "chef.obj");
+  CHECK_THROWS_WITH(list_models({folder.path().string()}),
+                    Catch::Contains("no .obj, .off, .pcd, .ply or .stl file in it"));
 }
 
 TEST_CASE("a BOP split gives images with their cameras", "[inputs]") {

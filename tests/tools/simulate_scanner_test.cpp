@@ -107,7 +107,7 @@ TEST_CASE("an RGB-D image has shadows beside edges, holes and steps of disparity
   for (std::size_t i = 0; i < pixels; ++i)
     if (i % sensor.width >= 300 && i % sensor.width < 310) truth.depth[i] = 0.9;
   sensor.holes = 0;
-  const load::DepthImage image = take_image(truth, sensor, 3);
+  const formats::DepthImage image = take_image(truth, sensor, 3);
   CHECK(image.values[row + 299] == 0);
   CHECK(image.values[row + 310] == 0);
   for (const std::size_t u : {298U, 300U, 309U, 311U}) CHECK(image.values[row + u] != 0);
@@ -116,7 +116,7 @@ TEST_CASE("an RGB-D image has shadows beside edges, holes and steps of disparity
   CHECK(std::count(image.values.begin(), image.values.end(), 0) ==
         static_cast<std::ptrdiff_t>(2 * sensor.height));
   sensor.holes = 12;
-  const load::DepthImage with_holes = take_image(truth, sensor, 3);
+  const formats::DepthImage with_holes = take_image(truth, sensor, 3);
   const auto missing = std::count(with_holes.values.begin(), with_holes.values.end(), 0);
   CHECK(missing > static_cast<std::ptrdiff_t>(2 * sensor.height + 100));
   CHECK(missing < static_cast<std::ptrdiff_t>(2 * sensor.height + 12 * 160));
@@ -126,7 +126,7 @@ TEST_CASE("the sweep leaves rows out, unevenly", "[simulate]") {
   const Sensor sensor = find_sensor("sweep");
   const std::size_t pixels = sensor.width * sensor.height;
   const TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
-  const load::DepthImage image = take_image(truth, sensor, 1);
+  const formats::DepthImage image = take_image(truth, sensor, 1);
   constexpr std::size_t kBand = 60;
   std::vector<int> kept(sensor.height / kBand);
   for (std::size_t v = 0; v < kept.size() * kBand; ++v)

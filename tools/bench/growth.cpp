@@ -16,7 +16,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "tools/bench/contestant.hpp"
 #include "tools/experiment/experiment.hpp"
 #include "tools/plot/line_chart.hpp"
@@ -42,7 +42,7 @@ std::vector<std::string> model_files(const fs::path& folder, std::size_t count) 
   for (std::size_t i = 0; i < count; ++i) {
     const fs::path file = folder / ("model" + std::to_string(100 + i) + ".ply");
     if (!fs::exists(file))
-      write::write_ply(file, make_shape(kKinds[i % kKinds.size()], i / kKinds.size() + 1, kSize));
+      formats::write_ply(file, make_shape(kKinds[i % kKinds.size()], i / kKinds.size() + 1, kSize));
     files.push_back(file.string());
   }
   return files;
@@ -78,7 +78,7 @@ std::string scan_file(const fs::path& folder, std::size_t points) {
   sensor.camera.cx = sensor.camera.cy = static_cast<double>(side) / 2;
   sensor.camera.depth_scale = 0.2;  // 16 bits reach 13 m
   const Scan made = scan(bodies, sensor, look_at({0, 0, 0}, kDistance, std::numbers::pi / 2, 0), 1);
-  write::write_ply(file, points_of(made.depth, sensor.camera));
+  formats::write_ply(file, points_of(made.depth, sensor.camera));
   return file.string();
 }
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "nodes/load/read_cloud.hpp"
+#include "nodes/formats/read_cloud.hpp"
 #include "tools/evaluate/dataset.hpp"
 
 namespace posevote {
@@ -45,7 +45,7 @@ void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
       fail(dataset / "models" / name, "is missing, but has true poses");
     }
     try {
-      const Cloud cloud = load::read_cloud(file->second, 0.001);
+      const Cloud cloud = formats::read_cloud(file->second, 0.001);
       object.points = cloud.points;
       object.faces = cloud.faces;
     } catch (const std::exception& error) {

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "nodes/load/file_bytes.hpp"
-#include "nodes/load/png_depth.hpp"
+#include "nodes/formats/depth_image.hpp"
 
 namespace posevote {
 namespace {
@@ -81,7 +80,7 @@ void draw(const Corner& a, const Corner& b, const Corner& c, RangeImage& image) 
 
 RangeImage read_range_image(const TrueImage& image) {
   try {
-    const load::DepthImage depth = load::decode_depth_png(load::read_file(image.depth).view());
+    const formats::DepthImage depth = formats::read_depth_image(image.depth);
     RangeImage ranges{0, 0, static_cast<int>(depth.width), static_cast<int>(depth.height), {}};
     ranges.ranges.reserve(depth.values.size());
     const double scale = image.camera->depth_scale / 1000;

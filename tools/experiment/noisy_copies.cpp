@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace posevote {
@@ -44,8 +44,8 @@ std::vector<NoisyCopy> make_noisy_copies(const Cloud& model, const fs::path& fol
       Random random(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(level));
       copy.T_scene_model = random_pose(random);
       if (!fs::exists(copy.file))
-        write::write_ply(copy.file,
-                         displaced(model, copy.noise * diagonal, copy.T_scene_model, random));
+        formats::write_ply(copy.file,
+                           displaced(model, copy.noise * diagonal, copy.T_scene_model, random));
       copies.push_back(copy);
     }
   return copies;

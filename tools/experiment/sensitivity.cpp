@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/winding.hpp"
-#include "nodes/load/read_cloud.hpp"
-#include "nodes/write/write_ply.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/results_csv.hpp"
 #include "tools/evaluate/rotation.hpp"
@@ -78,12 +78,12 @@ Subject find_subject(const std::string& dataset, const fs::path& out) {
   if (dataset.empty()) {
     subject.file = out / "model.ply";
     spdlog::info("no --dataset: a procedural figure stands in for the Bunny");
-    if (!fs::exists(subject.file)) write::write_ply(subject.file, make_shape("figure", 1, 0.2));
+    if (!fs::exists(subject.file)) formats::write_ply(subject.file, make_shape("figure", 1, 0.2));
   } else if (fs::is_directory(dataset)) {
     subject.file = fs::path(dataset) / "bunny.ply";
   }
   try {
-    subject.mesh = load::read_cloud(subject.file, 1);
+    subject.mesh = formats::read_cloud(subject.file, 1);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(subject.file.string() + ": " + error.what());
   }

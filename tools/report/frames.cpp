@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "nodes/load/file_bytes.hpp"
+#include "nodes/formats/file_bytes.hpp"
 #include "tools/report/folder.hpp"
 #include "tools/report/html.hpp"
 #include "tools/text.hpp"
@@ -33,7 +33,7 @@ class Pictures {
     if (file == files_.end()) return "";
     if (left_ == 0) return ++left_out_, "";
     try {
-      const load::FileBytes bytes = load::read_file(file->second);
+      const formats::FileBytes bytes = formats::read_file(file->second);
       if (!bytes.view().starts_with("\x89PNG")) return "";
       --left_, ++shown_;
       return html::image("png", bytes.view(), "picture of " + frame.name,

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nodes/load/file_bytes.hpp"
+#include "nodes/formats/file_bytes.hpp"
 #include "tools/median.hpp"
 #include "tools/report/frames.hpp"
 #include "tools/report/sections.hpp"
@@ -137,7 +137,7 @@ std::string failures(const RunResults& run) {
 
 std::string parameters(const fs::path& folder) {
   try {
-    const load::FileBytes yaml = load::read_file(folder / "effective.yaml");
+    const formats::FileBytes yaml = formats::read_file(folder / "effective.yaml");
     return html::heading("Parameters") +
            html::fold("effective.yaml",
                       "<pre>" + escape_markup(std::string(yaml.view())) + "</pre>\n");

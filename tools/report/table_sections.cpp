@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "nodes/load/file_bytes.hpp"
+#include "nodes/formats/file_bytes.hpp"
 #include "tools/report/csv_table.hpp"
 #include "tools/report/folder.hpp"
 #include "tools/report/sections.hpp"
@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 /// "" where there is none.
 std::string plot(const fs::path& svg) {
   try {
-    const load::FileBytes bytes = load::read_file(svg);
+    const formats::FileBytes bytes = formats::read_file(svg);
     return "<div class=\"wide\">" +
            html::image("svg+xml", bytes.view(), svg.stem().string(), "class=\"plot\"") + "</div>\n";
   } catch (const std::runtime_error&) {

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/write_ply.hpp"
 #include "tools/evaluate/extreme_points.hpp"
 #include "tools/write_text.hpp"
 
@@ -36,7 +36,7 @@ std::string lines(const ordered_json& json) {
   return text + "\n}\n";
 }
 
-std::string encode_png(const load::DepthImage& depth) {
+std::string encode_png(const formats::DepthImage& depth) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(depth.width);
@@ -85,7 +85,7 @@ BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
 }
 
 void BopWriter::add_model(int obj_id, const Cloud& mesh, bool is_round) {
-  write::write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
+  formats::write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
   ordered_json entry{{"diameter", rounded(diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f size = mesh.points.colwise().maxCoeff() - low;
@@ -103,7 +103,7 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
   const Camera& camera = sensor.camera;
   write_text(out_ / kSplit / six_digits(kSceneId) / "depth" / (name + ".png"),
              encode_png(scan.depth));
-  write::write_ply(out_ / kScans / (name + ".ply"), points_of(scan.depth, camera));
+  formats::write_ply(out_ / kScans / (name + ".ply"), points_of(scan.depth, camera));
   cameras_[key] = {{"cam_K", {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0}},
                    {"depth_scale", camera.depth_scale}};
   gt_[key] = gt_info_[key] = ordered_json::array();

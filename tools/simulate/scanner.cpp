@@ -69,7 +69,7 @@ Shot shoot(const RayCaster& caster, const Sensor& sensor) {
 
 /// Counts a body's pixels as if it were alone, and those that it is seen in.
 BodyView pixels_of(const Body& body, int index, const Eigen::Isometry3d& T_sensor_world,
-                   const Shot& shot, const load::DepthImage& depth) {
+                   const Shot& shot, const formats::DepthImage& depth) {
   const RayCaster alone({body}, T_sensor_world);
   const PixelBox box = bounds(alone.vertices(0), shot.sensor);
   BodyView view;
@@ -143,7 +143,7 @@ Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
   return made;
 }
 
-Cloud points_of(const load::DepthImage& depth, const Camera& camera) {
+Cloud points_of(const formats::DepthImage& depth, const Camera& camera) {
   Cloud cloud;
   cloud.points.resize(static_cast<Eigen::Index>(depth.values.size()), 3);
   Eigen::Index count = 0;

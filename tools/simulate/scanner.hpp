@@ -26,7 +26,7 @@ struct BodyView {
 };
 
 struct Scan {
-  load::DepthImage depth;
+  formats::DepthImage depth;
   std::vector<BodyView> views;  ///< one a body
 };
 
@@ -39,7 +39,7 @@ Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
           const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed);
 
 /// The points that a depth image holds [m], row by row, in the sensor's frame.
-Cloud points_of(const load::DepthImage& depth, const Camera& camera);
+Cloud points_of(const formats::DepthImage& depth, const Camera& camera);
 
 /// A sensor that looks at `target` from `distance`, `elevation` above the horizon and `azimuth`
 /// around it [m, rad].

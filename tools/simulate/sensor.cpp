@@ -53,7 +53,7 @@ bool behind_edge(const TrueDepth& truth, const Sensor& sensor, std::size_t u, st
   return false;
 }
 
-void punch_holes(load::DepthImage& image, int holes, Random random) {
+void punch_holes(formats::DepthImage& image, int holes, Random random) {
   constexpr double kLeast = 2, kMost = 7;  // radius [pixels]
   const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
   for (int i = 0; i < holes; ++i) {
@@ -68,7 +68,7 @@ void punch_holes(load::DepthImage& image, int holes, Random random) {
 }
 
 /// Keeps a row each time the stripe has moved on by one: fast where the wave is high.
-void thin_rows(load::DepthImage& image, Random random) {
+void thin_rows(formats::DepthImage& image, Random random) {
   const double phase = random.uniform(0, 6.283185307179586);
   double moved = 0;
   for (std::size_t v = 0; v < image.height; ++v) {
@@ -101,9 +101,9 @@ Eigen::Vector3d ray_of(const Camera& camera, std::size_t u, std::size_t v) {
           (static_cast<double>(v) - camera.cy) / camera.fy, 1};
 }
 
-load::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed) {
-  load::DepthImage image{sensor.width, sensor.height,
-                         std::vector<std::uint16_t>(truth.depth.size())};
+formats::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed) {
+  formats::DepthImage image{sensor.width, sensor.height,
+                            std::vector<std::uint16_t>(truth.depth.size())};
   graph::parallel_for(sensor.height, 4, [&](std::size_t v) {
     for (std::size_t u = 0; u < sensor.width; ++u) {
       const std::size_t pixel = v * sensor.width + u;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nodes/data/files.hpp"
-#include "nodes/load/png_depth.hpp"
+#include "nodes/formats/depth_image.hpp"
 
 namespace posevote {
 
@@ -40,6 +40,6 @@ struct TrueDepth {
 Eigen::Vector3d ray_of(const Camera& camera, std::size_t u, std::size_t v);
 
 /// The image that the sensor takes. The same seed gives the same bits at any number of threads.
-load::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed);
+formats::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed);
 
 }  // namespace posevote

@@ -2,7 +2,7 @@
 #include <random>
 
 #include "nodes/data/model.hpp"
-#include "tests/nodes/load/support.hpp"
+#include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
 
 using namespace posevote;

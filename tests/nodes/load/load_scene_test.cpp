@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/data/files.hpp"
-#include "tests/nodes/load/support.hpp"
+#include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
 
 using namespace posevote;

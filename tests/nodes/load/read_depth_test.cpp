@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/load/read_depth.hpp"
 
-#include "tests/nodes/load/support.hpp"
+#include "tests/nodes/formats/support.hpp"
 
 using namespace posevote;
+using namespace posevote::load;
 using namespace posevote::test;
 
 namespace {

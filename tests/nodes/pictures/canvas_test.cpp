@@ -40,26 +40,27 @@ TEST_CASE("what is nearer is seen, in whatever order it is drawn", "[write]") {
     for (const bool near : {near_first, !near_first})
       canvas.draw(near ? disc(20, 10, 1, 3) : disc(20, 10, 2, 6), near ? kRed : kGreen);
     const Picture picture = saved(canvas);
-    CHECK(picture.at(20, 10) == write::Rgb{255, 0, 0});
-    CHECK(picture.at(22, 10) == write::Rgb{255, 0, 0});
-    CHECK(picture.at(25, 10) == write::Rgb{0, 255, 0});
-    CHECK(picture.at(10, 20) == write::Rgb{255, 255, 255});
+    CHECK(picture.at(20, 10) == formats::Rgb{255, 0, 0});
+    CHECK(picture.at(22, 10) == formats::Rgb{255, 0, 0});
+    CHECK(picture.at(25, 10) == formats::Rgb{0, 255, 0});
+    CHECK(picture.at(10, 20) == formats::Rgb{255, 255, 255});
   }
 }
 
 TEST_CASE("a disc is round; tilted, it is narrow and its depth varies", "[write]") {
   pictures::Canvas canvas(60, 60, kWhite);
   canvas.draw(disc(30, 30, 10, 20), kGreen);
-  CHECK(saved(canvas).at(46, 46) == write::Rgb{255, 255, 255});  // a corner of the square around it
-  CHECK(saved(canvas).at(30, 49) == write::Rgb{0, 255, 0});
+  CHECK(saved(canvas).at(46, 46) ==
+        formats::Rgb{255, 255, 255});  // a corner of the square around it
+  CHECK(saved(canvas).at(30, 49) == formats::Rgb{0, 255, 0});
   pictures::Disc tilted = disc(30, 30, 10, 20);
   tilted.tilt = {-1, 0};  // nearer to the right
   canvas.draw(tilted, kRed);
   const Picture picture = saved(canvas);
-  CHECK(picture.at(40, 30) == write::Rgb{255, 0, 0});
-  CHECK(picture.at(20, 30) == write::Rgb{0, 255, 0});
+  CHECK(picture.at(40, 30) == formats::Rgb{255, 0, 0});
+  CHECK(picture.at(20, 30) == formats::Rgb{0, 255, 0});
   CHECK(picture.at(45, 30) ==
-        write::Rgb{0, 255, 0});  // 15 pixels across at 45 degrees: beyond its edge
+        formats::Rgb{0, 255, 0});  // 15 pixels across at 45 degrees: beyond its edge
 }
 
 TEST_CASE("discs are drawn as they are defined, on each instruction set, at the edges too",
@@ -117,7 +118,7 @@ TEST_CASE("discs are drawn as they are defined, on each instruction set, at the 
         return static_cast<std::uint8_t>(std::lround(255 * colour(k)));
       };
       ++checked;
-      wrong += !(picture.at(x, y) == write::Rgb{byte(0), byte(1), byte(2)});
+      wrong += !(picture.at(x, y) == formats::Rgb{byte(0), byte(1), byte(2)});
     }
   CHECK(checked > kWidth * kHeight / 2);
   CHECK(wrong == 0);
@@ -131,9 +132,9 @@ TEST_CASE("half the size: each pixel the mean of four", "[write]") {
       const Picture picture = saved(canvas.halved());
       CHECK(picture.width == 2);
       CHECK(picture.height == 2);
-      CHECK(picture.at(0, 1) == write::Rgb{191, 191, 191});
-      CHECK(picture.at(0, 0) == write::Rgb{255, 255, 255});
-      CHECK(picture.at(1, 1) == write::Rgb{255, 255, 255});
+      CHECK(picture.at(0, 1) == formats::Rgb{191, 191, 191});
+      CHECK(picture.at(0, 0) == formats::Rgb{255, 255, 255});
+      CHECK(picture.at(1, 1) == formats::Rgb{255, 255, 255});
     }
 }
 
@@ -141,9 +142,9 @@ TEST_CASE("letters stand upright, and nothing outside is drawn", "[write]") {
   pictures::Canvas canvas(30, 20, kWhite);
   canvas.text(5, 5, 1, "L", kRed);
   const Picture picture = saved(canvas);
-  CHECK(picture.at(5, 5) == write::Rgb{255, 0, 0});   // top of the stem
-  CHECK(picture.at(9, 11) == write::Rgb{255, 0, 0});  // end of the foot
-  CHECK(picture.at(9, 5) != write::Rgb{255, 0, 0});
+  CHECK(picture.at(5, 5) == formats::Rgb{255, 0, 0});   // top of the stem
+  CHECK(picture.at(9, 11) == formats::Rgb{255, 0, 0});  // end of the foot
+  CHECK(picture.at(9, 5) != formats::Rgb{255, 0, 0});
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   for (const float far : {-1e30F, -50.0F, 1e5F, 1e30F, kNan})
     canvas.draw(disc(far, far, 1, 9), kRed);

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "nodes/data/features.hpp"
+#include "nodes/formats/read_cloud.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/plane_normals.hpp"
 #include "nodes/geometry/winding.hpp"
-#include "nodes/load/read_cloud.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
@@ -169,7 +169,7 @@ TEST_CASE("estimate_normals on the Bunny with 3 % noise", "[prepare]") {
     WARN("skipped: no " << file);
     return;
   }
-  Cloud scan = load::read_cloud(file, 1);
+  Cloud scan = formats::read_cloud(file, 1);
   const PointMatrix truth =
       geometry::face_normals(scan.points, geometry::wind_outward(scan.points, scan.faces));
   scan.points = test::shaken(scan.points, 0.0075F);

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "nodes/data/features.hpp"
+#include "nodes/formats/read_cloud.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/winding.hpp"
-#include "nodes/load/read_cloud.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
@@ -174,7 +174,7 @@ TEST_CASE("model_normals of real models without their faces", "[prepare]") {
       WARN("skipped: no " << file);
       continue;
     }
-    Cloud mesh = load::read_cloud(file, name[0] == 'b' ? 1 : 1e-3);
+    Cloud mesh = formats::read_cloud(file, name[0] == 'b' ? 1 : 1e-3);
     const PointMatrix truth =
         geometry::face_normals(mesh.points, geometry::wind_outward(mesh.points, mesh.faces));
     mesh.faces.resize(0, 3);
@@ -194,7 +194,7 @@ TEST_CASE("the Bunny's mesh is wound inward and comes out outward", "[prepare]")
     WARN("skipped: no " << file);
     return;
   }
-  const Cloud out = oriented(load::read_cloud(file, 1));
+  const Cloud out = oriented(formats::read_cloud(file, 1));
   CHECK(out.dropped == 1113);
   Eigen::Index top = 0;
   out.points.col(1).maxCoeff(&top);

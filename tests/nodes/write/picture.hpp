@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nodes/write/write_ply.hpp"
+#include "nodes/formats/write_ply.hpp"
 
 namespace posevote::test {
 
@@ -28,7 +28,7 @@ struct Picture {
     width = static_cast<int>(image.width);
     height = static_cast<int>(image.height);
   }
-  write::Rgb at(int x, int y) const {
+  formats::Rgb at(int x, int y) const {
     const auto i = 3 * static_cast<std::size_t>(y * width + x);
     return {pixels.at(i), pixels.at(i + 1), pixels.at(i + 2)};
   }

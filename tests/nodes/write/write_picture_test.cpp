@@ -24,8 +24,10 @@ Picture draw(const Cloud& scan, const Detections& detections) {
   return Picture(folder / "pictures/shelf.png");
 }
 
-bool is_red(const write::Rgb& pixel) { return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2]; }
-bool is_grey(const write::Rgb& pixel) {
+bool is_red(const formats::Rgb& pixel) {
+  return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2];
+}
+bool is_grey(const formats::Rgb& pixel) {
   return std::abs(pixel[0] - pixel[2]) < 8 && pixel[0] < 220;
 }
 
@@ -124,7 +126,7 @@ TEST_CASE("spacing is that of the points, not of what was expected", "[write]") 
 }
 
 TEST_CASE("labels of instances at one place do not cover each other", "[write]") {
-  const auto is_letter = [](const write::Rgb& p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; };
+  const auto is_letter = [](const formats::Rgb& p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; };
   const auto letters = [&](const Detections& detections) {
     return middle_of(draw(wall(), detections), is_letter).z();
   };

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the readers of point files hand over: numbers as they stand in the file.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+
+namespace posevote::formats {
+
+using Triple = std::array<double, 3>;
+
+struct RawMesh {
+  std::vector<Triple> points;
+  std::vector<Triple> normals;  ///< one a point, or none
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  Triple viewpoint{};
+
+  /// Adds a polygon as a fan of triangles. Fewer than three corners are no face and add nothing.
+  void add_polygon(std::span<const std::uint32_t> corners);
+};
+
+/// Scales to metres; removes points that are not finite, and the faces that use them, and counts
+/// the points in Cloud::dropped; makes normals unit length, or zero where they have no direction.
+/// Throws std::runtime_error if no point is left. Every face must refer to points of the mesh.
+Cloud to_cloud(const RawMesh& mesh, double metres_per_unit);
+
+/// Throws std::runtime_error if `count` things of at least `size` bytes cannot be in `room` bytes:
+/// asked before anything is allocated. `what` is a plural.
+void check_room(std::uint64_t count, const std::string& what, std::uint64_t size,
+                std::uint64_t room);
+
+/// What is wrong with a vertex index of a face, counted from 0; "" if it is one of `vertices`.
+std::string index_problem(double index, std::uint64_t vertices);
+
+}  // namespace posevote::formats

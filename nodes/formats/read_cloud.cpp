@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/read_cloud.hpp"
+
+#include <stdexcept>
+#include <variant>
+
+#include "nodes/formats/file_bytes.hpp"
+#include "nodes/formats/format.hpp"
+#include "nodes/formats/raw_mesh.hpp"
+
+namespace posevote::formats {
+namespace {
+
+/// The reader of a file's format, which must make what `Read` returns.
+template <class Read>
+Read find_reader(const std::filesystem::path& path, Wanted wanted) {
+  const Format* format = find_format(path);
+  if (const Read* read = format ? std::get_if<Read>(&format->read) : nullptr) return *read;
+  throw std::runtime_error("has the ending " + in_quotes(path.extension().string()) +
+                           ", expected " + list_endings(wanted));
+}
+
+}  // namespace
+
+Cloud read_cloud(const std::filesystem::path& path, double metres_per_unit) {
+  const FileBytes bytes = read_file(path);
+  return to_cloud(find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view()), metres_per_unit);
+}
+
+DepthImage read_depth_image(const std::filesystem::path& path) {
+  const FileBytes bytes = read_file(path);
+  return find_reader<ReadDepth>(path, Wanted::kDepthImages)(bytes.view());
+}
+
+double metres_per(const std::string& unit) { return unit == "mm" ? 0.001 : 1.0; }
+
+}  // namespace posevote::formats

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads Wavefront OBJ: v, vn and f (v, v/vt, v//vn, v/vt/vn; negative indices count from the
+// latest). A vertex whose corners have different normals gets their mean. Without faces that name
+// normals, as many vn as v belong to the vertices in order (point clouds are written so).
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "nodes/formats/file_bytes.hpp"
+#include "nodes/formats/format.hpp"
+#include "nodes/formats/raw_mesh.hpp"
+#include "nodes/formats/text_scanner.hpp"
+
+namespace posevote::formats {
+namespace {
+
+/// Keywords of the format that say nothing about points and triangles.
+bool is_skipped(std::string_view keyword) {
+  constexpr std::array<std::string_view, 40> kSkipped{
+      "vt",    "vp",    "g",     "o",      "s",      "usemtl", "mtllib",     "l",
+      "p",     "mg",    "bevel", "lod",    "maplib", "usemap", "c_interp",   "d_interp",
+      "deg",   "bmat",  "step",  "cstype", "curv",   "curv2",  "surf",       "parm",
+      "trim",  "hole",  "scrv",  "sp",     "end",    "con",    "shadow_obj", "trace_obj",
+      "ctech", "stech", "bzp",   "bsp",    "cdc",    "cdp",    "res",        "call"};
+  return std::find(kSkipped.begin(), kSkipped.end(), keyword) != kSkipped.end();
+}
+
+/// The largest index used and the line of its first use: a face may precede its vertices.
+struct LargestIndex {
+  std::uint32_t index = 0;
+  std::size_t line = 0;
+
+  void use(std::uint32_t used, std::size_t at_line) {
+    if (line == 0 || used > index) *this = {used, at_line};
+  }
+  void check(std::size_t count, const std::string& what) const {
+    if (line > 0 && index >= count)
+      throw std::runtime_error("line " + std::to_string(line) + ": a face refers to " + what + " " +
+                               std::to_string(std::uint64_t{index} + 1) + ", the file has " +
+                               std::to_string(count));
+  }
+};
+
+class ObjReader {
+ public:
+  explicit ObjReader(std::string_view bytes) : in_(bytes, '#') {}
+
+  RawMesh read() {
+    while (in_.next_line()) {
+      const std::string_view keyword = in_.word();
+      if (keyword == "v")
+        mesh_.points.push_back(read_triple());
+      else if (keyword == "vn")
+        normals_.push_back(read_triple());
+      else if (keyword == "f")
+        read_face();
+      else if (!is_skipped(keyword))
+        in_.fail("expected a line of an OBJ file, found " + in_quotes(keyword));
+    }
+    largest_vertex_.check(mesh_.points.size(), "vertex");
+    largest_normal_.check(normals_.size(), "normal");
+    assign_normals();
+    return std::move(mesh_);
+  }
+
+ private:
+  Triple read_triple() {
+    Triple triple;
+    for (double& coordinate : triple) coordinate = in_.number();
+    while (!in_.line_done()) in_.number();  // a weight or a colour
+    return triple;
+  }
+
+  /// An index of a face's corner, counted from 0.
+  std::uint32_t read_index(std::string_view text, std::size_t count, LargestIndex& largest) {
+    const std::optional<std::int64_t> index = to_integer(text);
+    const auto so_far = static_cast<std::int64_t>(count);
+    if (!index || *index == 0 || *index < -so_far || *index > (std::int64_t{1} << 32) - 1)
+      in_.fail("expected an index from 1, or down to -" + std::to_string(count) + ", found " +
+               in_quotes(text));
+    const auto zero_based = static_cast<std::uint32_t>(*index > 0 ? *index - 1 : so_far + *index);
+    largest.use(zero_based, in_.line());
+    return zero_based;
+  }
+
+  void read_face() {
+    polygon_.clear();
+    while (!in_.line_done()) {
+      const std::string_view corner = in_.word();
+      const std::size_t slash = std::min(corner.find('/'), corner.size());
+      polygon_.push_back(read_index(corner.substr(0, slash), mesh_.points.size(), largest_vertex_));
+      const std::size_t second = corner.find('/', slash + 1);
+      if (slash == corner.size() || second == corner.npos) continue;
+      const std::uint32_t normal =
+          read_index(corner.substr(second + 1), normals_.size(), largest_normal_);
+      corner_normals_.emplace_back(polygon_.back(), normal);
+    }
+    if (polygon_.size() < 3) in_.fail("a face needs three corners or more");
+    mesh_.add_polygon(polygon_);
+  }
+
+  void assign_normals() {
+    if (corner_normals_.empty()) {
+      if (normals_.size() == mesh_.points.size()) mesh_.normals = std::move(normals_);
+      return;
+    }
+    mesh_.normals.assign(mesh_.points.size(), Triple{});
+    for (const auto& [vertex, normal] : corner_normals_)
+      for (std::size_t i = 0; i < 3; ++i) mesh_.normals[vertex][i] += normals_[normal][i];
+  }
+
+  TextScanner in_;
+  RawMesh mesh_;
+  std::vector<Triple> normals_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> corner_normals_;  ///< vertex, normal
+  LargestIndex largest_vertex_, largest_normal_;
+  std::vector<std::uint32_t> polygon_;
+};
+
+RawMesh read_obj(std::string_view bytes) { return ObjReader(bytes).read(); }
+
+const auto registered = register_format("OBJ", {".obj"}, read_obj);
+
+}  // namespace
+}  // namespace posevote::formats

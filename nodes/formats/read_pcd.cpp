@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads PCD (PCL's format): ascii, binary and binary_compressed. Of PCL only the decompressor is
+// used: PCL's reader allocates what a lying header asks for, needs its global console silenced (for
+// every thread of the process) not to print, and after the header is checked little is left to
+// read.
+//
+// VIEWPOINT's translation becomes the cloud's viewpoint; its rotation says nothing about the
+// points.
+#include <pcl/io/lzf.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "nodes/formats/file_bytes.hpp"
+#include "nodes/formats/format.hpp"
+#include "nodes/formats/pcd_header.hpp"
+#include "nodes/formats/raw_mesh.hpp"
+
+namespace posevote::formats {
+namespace {
+
+/// One of x, y, z, normal_x, normal_y, normal_z: where its values are.
+struct Column {
+  PcdField field;
+  std::uint64_t value = 0;   ///< ascii: position in the line
+  std::uint64_t offset = 0;  ///< binary: byte of the first point's value
+  std::uint64_t stride = 0;  ///< binary: bytes from point to point
+};
+
+using Columns = std::array<Column, 3>;
+
+/// Nothing where one of the three is missing. Compressed data holds field after field (all x, then
+/// all y, ...) without the padding fields "_"; else it holds point after point.
+std::optional<Columns> find_columns(const PcdHeader& header, const std::string& prefix) {
+  const bool planar = header.data == PcdData::kBinaryCompressed;
+  Columns columns;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = header.find(prefix + "xyz"[i]);
+    if (!at || header.fields[*at].count != 1) return std::nullopt;
+    Column& column = columns[i];
+    column.field = header.fields[*at];
+    column.stride = planar ? column.field.size : header.point_bytes();
+    for (std::size_t f = 0; f < *at; ++f) {
+      const PcdField& before = header.fields[f];
+      column.value += before.count;
+      if (!planar)
+        column.offset += before.bytes();
+      else if (before.name != "_")
+        column.offset += before.bytes() * header.points;
+    }
+  }
+  return columns;
+}
+
+template <class T>
+double load_as(const char* bytes) {
+  return static_cast<double>(load_bytes<T>(bytes));
+}
+
+double value_at(const char* bytes, const PcdField& field) {
+  const bool is_signed = field.type == 'I', is_float = field.type == 'F';
+  switch (field.size) {
+    case 1:
+      return is_signed ? load_as<std::int8_t>(bytes) : load_as<std::uint8_t>(bytes);
+    case 2:
+      return is_signed ? load_as<std::int16_t>(bytes) : load_as<std::uint16_t>(bytes);
+    case 4:
+      if (is_float) return load_as<float>(bytes);
+      return is_signed ? load_as<std::int32_t>(bytes) : load_as<std::uint32_t>(bytes);
+    default:
+      if (is_float) return load_as<double>(bytes);
+      return is_signed ? load_as<std::int64_t>(bytes) : load_as<std::uint64_t>(bytes);
+  }
+}
+
+void read_binary(std::string_view data, const Columns& columns, std::uint64_t points,
+                 std::vector<Triple>& out) {
+  out.resize(points);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Column& column = columns[axis];
+    for (std::uint64_t i = 0; i < points; ++i)
+      out[i][axis] = value_at(data.data() + column.offset + i * column.stride, column.field);
+  }
+}
+
+void read_ascii(TextScanner& in, std::uint64_t room, const PcdHeader& header, const Columns& points,
+                const std::optional<Columns>& normals, RawMesh& mesh) {
+  if (header.points == 0) return;  // nothing then bounds the width
+  const std::uint64_t width = header.point_values();
+  check_room(header.points, "points", 2 * width, room + 1);
+  std::vector<double> row(width);
+  const auto pick = [&row](const Columns& columns) {
+    return Triple{row[columns[0].value], row[columns[1].value], row[columns[2].value]};
+  };
+  for (std::uint64_t i = 0; i < header.points; ++i) {
+    if (!in.next_line())
+      throw std::runtime_error("the file ends after line " + std::to_string(in.line()) +
+                               ", expected point " + std::to_string(i + 1) + " of " +
+                               std::to_string(header.points));
+    for (double& value : row) value = in.number();
+    if (!in.line_done()) in.fail("more than " + std::to_string(width) + " values");
+    mesh.points.push_back(pick(points));
+    if (normals) mesh.normals.push_back(pick(*normals));
+  }
+  if (in.next_line()) in.fail("more in the file than the header says");
+}
+
+/// Two words precede compressed data: its bytes, and what it unpacks to. Both are checked before
+/// anything is allocated: LZF makes at most 264 bytes of 3.
+std::vector<char> decompress(std::string_view data, const PcdHeader& header) {
+  constexpr std::uint64_t kMostRatio = 88;
+  check_room(header.points, "points", header.point_bytes(), kMostRatio * data.size());
+  const std::uint64_t expected = header.points * header.point_bytes();
+  constexpr std::size_t kWords = 2 * sizeof(std::uint32_t);
+  if (data.size() < kWords)
+    throw std::runtime_error("the file ends within the sizes of the compressed data");
+  const auto packed = load_bytes<std::uint32_t>(data.data());
+  const auto unpacked = load_bytes<std::uint32_t>(data.data() + sizeof(std::uint32_t));
+  data.remove_prefix(kWords);
+  check_room(packed, "bytes of compressed data", 1, data.size());
+  if (!is_padding(data.substr(packed)))
+    throw std::runtime_error("more in the file than the compressed data");
+  if (unpacked != expected)
+    throw std::runtime_error("compressed data unpacks to " + std::to_string(unpacked) +
+                             " bytes, expected " + std::to_string(expected) + " from the header");
+  check_room(unpacked, "unpacked bytes", 1, kMostRatio * packed);
+  std::vector<char> out(unpacked);
+  if (pcl::lzfDecompress(data.data(), packed, out.data(), unpacked) != unpacked)
+    throw std::runtime_error("the compressed data is damaged");
+  return out;
+}
+
+std::string_view plain_body(std::string_view body, const PcdHeader& header) {
+  check_room(header.points, "points", header.point_bytes(), body.size());
+  const std::uint64_t used = header.points * header.point_bytes();
+  if (!is_padding(body.substr(used)))
+    throw std::runtime_error(std::to_string(body.size() - used) +
+                             " bytes more in the file than the header says");
+  return body;
+}
+
+RawMesh read_pcd(std::string_view bytes) {
+  TextScanner first(bytes, '#');
+  const std::string_view keyword = first.next_line() ? first.word() : "";
+  if (keyword != "VERSION" && keyword != "FIELDS" && keyword != "COLUMNS")
+    throw std::runtime_error("not a PCD file: starts with " + in_quotes(bytes));
+  TextScanner in(bytes, '#');
+  const PcdHeader header = read_pcd_header(in);
+  const std::string_view body = bytes.substr(in.next_offset());
+  const Columns points = find_columns(header, "").value();
+  const std::optional<Columns> normals = find_columns(header, "normal_");
+  RawMesh mesh;
+  mesh.viewpoint = header.viewpoint;
+  if (header.data == PcdData::kAscii) {
+    read_ascii(in, body.size(), header, points, normals, mesh);
+    return mesh;
+  }
+  const bool packed = header.data == PcdData::kBinaryCompressed;
+  const std::vector<char> unpacked = packed ? decompress(body, header) : std::vector<char>();
+  const std::string_view data =
+      packed ? std::string_view(unpacked.data(), unpacked.size()) : plain_body(body, header);
+  read_binary(data, points, header.points, mesh.points);
+  if (normals) read_binary(data, *normals, header.points, mesh.normals);
+  return mesh;
+}
+
+const auto registered = register_format("PCD", {".pcd"}, read_pcd);
+
+}  // namespace
+}  // namespace posevote::formats

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/write_ply.hpp"
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace posevote::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little, "values are written as they lie");
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void check_counts(const fs::path& file, const Cloud& cloud, std::size_t colours) {
+  const Eigen::Index points = cloud.points.rows();
+  const auto refuse = [&](const std::string& what, Eigen::Index count) {
+    throw std::invalid_argument(file.string() + ": " + std::to_string(count) + " " + what +
+                                " for " + std::to_string(points) + " points");
+  };
+  if (cloud.normals.rows() != 0 && cloud.normals.rows() != points)
+    refuse("normals", cloud.normals.rows());
+  if (colours != 0 && static_cast<Eigen::Index>(colours) != points)
+    refuse("colours", static_cast<Eigen::Index>(colours));
+  if (cloud.faces.size() != 0 && static_cast<Eigen::Index>(cloud.faces.maxCoeff()) >= points)
+    refuse("as the highest index of a face", cloud.faces.maxCoeff());
+}
+
+std::string header(const Cloud& cloud, bool colours) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                     std::to_string(cloud.points.rows()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (cloud.normals.rows() != 0)
+    text += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (colours) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (cloud.faces.rows() != 0)
+    text += "element face " + std::to_string(cloud.faces.rows()) +
+            "\nproperty list uchar uint vertex_indices\n";
+  return text + "end_header\n";
+}
+
+std::string body(const Cloud& cloud, double units_per_metre, const std::vector<Rgb>& colours) {
+  std::string bytes;
+  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      put(bytes, static_cast<float>(cloud.points(i, axis) * units_per_metre));
+    if (cloud.normals.rows() != 0)
+      for (int axis = 0; axis < 3; ++axis) put(bytes, cloud.normals(i, axis));
+    if (!colours.empty()) put(bytes, colours[static_cast<std::size_t>(i)]);
+  }
+  for (Eigen::Index face = 0; face < cloud.faces.rows(); ++face) {
+    put(bytes, std::uint8_t{3});
+    for (int corner = 0; corner < 3; ++corner) put(bytes, cloud.faces(face, corner));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void write_ply(const fs::path& file, const Cloud& cloud, double units_per_metre,
+               const std::vector<Rgb>& colours) {
+  check_counts(file, cloud, colours.size());
+  const std::string bytes = header(cloud, !colours.empty()) + body(cloud, units_per_metre, colours);
+  fs::path part = file;
+  part += ".part";
+  errno = 0;
+  std::ofstream stream(part, std::ios::binary | std::ios::trunc);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  std::error_code problem(stream ? 0 : errno, std::generic_category());
+  const bool written = static_cast<bool>(stream);
+  if (written) fs::rename(part, file, problem);
+  if (written && !problem) return;
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  throw std::runtime_error(file.string() + ": cannot be written: " + problem.message());
+}
+
+}  // namespace posevote::formats

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of formats and of loading share: bytes of a given order, files in a folder of
+// their own, and the text of an error.
+#pragma once
+
+#include <png.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/formats/format.hpp"
+
+namespace posevote::test {
+
+/// A folder that is removed with the test.
+class TempDir {
+ public:
+  TempDir() {
+    static std::atomic<int> count{0};
+    path_ = std::filesystem::temp_directory_path() /
+            ("posevote_load_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+    std::filesystem::create_directories(path_);
+  }
+  ~TempDir() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TempDir(const TempDir&) = delete;
+  TempDir& operator=(const TempDir&) = delete;
+
+  std::filesystem::path path(const std::string& name) const { return path_ / name; }
+  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+template <class T>
+void append(std::string& out, T value, std::endian order = std::endian::little) {
+  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
+  out.append(bytes.data(), bytes.size());
+}
+
+/// The body of a compressed PCD file: both sizes, then LZF of nothing but literals, up to 32 a run.
+inline std::string lzf_block(const std::string& plain) {
+  std::string packed;
+  for (std::size_t i = 0; i < plain.size(); i += 32) {
+    const std::string run = plain.substr(i, 32);
+    packed += static_cast<char>(run.size() - 1) + run;
+  }
+  std::string block;
+  append(block, static_cast<std::uint32_t>(packed.size()));
+  append(block, static_cast<std::uint32_t>(plain.size()));
+  return block + packed;
+}
+
+/// What the reader of an ending, ".ply", makes of a file's bytes.
+inline formats::RawMesh read_mesh(const std::string& ending, std::string_view bytes) {
+  const formats::Format* format = formats::find_format("file" + ending);
+  if (!format) throw std::logic_error("no format has the ending " + ending);
+  return std::get<formats::ReadMesh>(format->read)(bytes);
+}
+
+/// The text of the std::runtime_error that `action` throws. Any other exception fails the test.
+template <class Action>
+std::string error_of(const Action& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+inline Catch::Matchers::StdString::ContainsMatcher has(const std::string& text) {
+  return Catch::Matchers::Contains(text);
+}
+
+/// A grey PNG of 8 or 16 bits, or 8-bit RGB for `channels` 3. Samples of 16 bits are big-endian.
+inline std::string png_bytes(std::uint32_t width, std::uint32_t height, int bits, int channels,
+                             const std::string& samples, int interlace = PNG_INTERLACE_NONE) {
+  std::string out;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &out,
+      [](png_structp p, png_bytep data, std::size_t size) {
+        static_cast<std::string*>(png_get_io_ptr(p))
+            ->append(reinterpret_cast<const char*>(data), size);
+      },
+      nullptr);
+  png_set_IHDR(png, info, width, height, bits,
+               channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, interlace,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  const std::size_t stride = std::size_t{width} * static_cast<std::size_t>(channels * bits / 8);
+  std::string pixels = samples;
+  std::vector<png_bytep> rows;
+  for (std::size_t v = 0; v < height; ++v)
+    rows.push_back(reinterpret_cast<png_bytep>(pixels.data() + v * stride));
+  png_write_image(png, rows.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return out;
+}
+
+inline std::string depth_png(std::uint32_t width, std::uint32_t height,
+                             const std::vector<std::uint16_t>& values,
+                             int interlace = PNG_INTERLACE_NONE) {
+  std::string samples;
+  for (const std::uint16_t value : values) append(samples, value, std::endian::big);
+  return png_bytes(width, height, 16, 1, samples, interlace);
+}
+
+/// What every loaded cloud must be, however the file looked.
+inline bool is_valid(const Cloud& cloud) {
+  const Eigen::Index n = cloud.points.rows();
+  if (n == 0 || !cloud.points.allFinite() || !cloud.viewpoint.allFinite()) return false;
+  if (cloud.normals.rows() != 0 && cloud.normals.rows() != n) return false;
+  for (Eigen::Index i = 0; i < cloud.normals.rows(); ++i) {
+    const float length = cloud.normals.row(i).norm();
+    if (length != 0.0F && !(std::abs(length - 1) < 1e-5F)) return false;
+  }
+  return cloud.faces.rows() == 0 || cloud.faces.maxCoeff() < static_cast<std::uint32_t>(n);
+}
+
+}  // namespace posevote::test
