@@ -8,7 +8,7 @@
 #include "graph/problem.hpp"
 #include "nodes/formats/depth_image.hpp"
 #include "nodes/formats/read_cloud.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/nearest_index.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/evaluate/ground_truth.hpp"
 #include "tools/simulate/spec.hpp"
