@@ -20,7 +20,7 @@ namespace posevote::write {
 namespace {
 
 struct Params {
-  int every = 1;
+  int every = 0;
 };
 
 formats::Rgb to_rgb(const pictures::Colour& colour) {

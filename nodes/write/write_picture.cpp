@@ -20,7 +20,7 @@ namespace {
 
 struct Params {
   int width = 1280;
-  int every = 1;
+  int every = 0;
 };
 
 /// The points of all found models, in the scan's frame.

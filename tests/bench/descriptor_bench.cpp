@@ -128,8 +128,10 @@ Row measure(const Bench& bench, const Variant& variant) {
   run.dataset = bench.dataset;
   run.out = out.string();
   run.cache = (bench.out / "cache").string();
-  run.set = {variant.set, "write_correspondences.every=1", "write_picture.every=0",
-             "write_overlay.every=0"};
+  run.set = {
+      variant.set,
+      "write_correspondences.every=1",
+  };
   run.tokens = 1;  // one scan at a time, so that stages are timed by themselves
   run.quiet = true;
   const std::atomic<bool> interrupted = false;

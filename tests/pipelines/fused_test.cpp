@@ -21,7 +21,7 @@ TEST_CASE("fused descriptors find what is there, from a cached library too", "[r
     std::filesystem::remove_all(out);
     const CommandResult run =
         run_posevote(folder, "run demo --pipeline recognize_fused --dataset " + data + " --out " +
-                                 out + " --set write_picture.every=0 " + more);
+                                 out + " " + more);
     INFO(run.output);
     REQUIRE(run.status == 0);
     const auto frame = read_json(folder / "out/results.json")["frames"][0];

@@ -107,7 +107,6 @@ RunCommand make_run(const ExperimentCommand& command, const Method& method, cons
   run.out = (out / method.name).string();
   run.cache = (out / "cache").string();
   run.set = method.set;
-  run.set.insert(run.set.end(), {"write_picture.every=0", "write_overlay.every=0"});
   // OpenCV's training takes minutes for smooth models, and a sixteenth at this spacing.
   if (command.quick && method.name == "opencv_ppf")
     run.set.emplace_back("train_opencv_ppf.sampling=0.1");
