@@ -43,7 +43,8 @@ struct PipelineDescription {
   std::string models;  ///< pipeline whose result is a constant stream here; may be empty
   Location models_where;
   std::vector<Wire> inputs;  ///< streams that come with each frame
-  Wire result;               ///< the stream that a frame leaves with
+  Location inputs_where;
+  Wire result;  ///< the stream that a frame leaves with
   std::vector<NodeDescription> nodes;
 };
 

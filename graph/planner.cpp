@@ -9,22 +9,20 @@ namespace {
 /// Turns a description into a plan, step by step, each step going on where others found problems.
 class Planner {
  public:
-  Planner(const PipelineDescription& description,
-          const std::map<std::string, StreamType>& constants, std::vector<Problem>& problems)
-      : description_(description), constants_(constants), problems_(problems) {}
+  Planner(const PipelineDescription& description, const PlanEnds& ends,
+          std::vector<Problem>& problems)
+      : description_(description), ends_(ends), problems_(problems) {}
 
   Plan run() {
     plan_.name = description_.name;
-    for (const auto& [name, type] : constants_) add_stream({name, type, -1, true}, {});
-    for (const Wire& wire : description_.inputs) add_stream({wire.stream, {}, -1}, wire.where);
-    plan_.inputs.resize(description_.inputs.size());
-    for (std::size_t i = 0; i < plan_.inputs.size(); ++i)
-      plan_.inputs[i] = stream_of_[description_.inputs[i].stream];
+    for (const auto& [name, type] : ends_.constants) add_stream({name, type, -1, true}, {});
+    add_inputs();
     for (const NodeDescription& node : description_.nodes) add_node(node);
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) connect(static_cast<int>(i));
     find_result();
     sort();
     check_types();
+    check_result();
     check_readers();
     return std::move(plan_);
   }
@@ -50,6 +48,23 @@ class Planner {
            "produced twice, by " + producer(plan_.streams[std::size_t(place->second)]) +
                " and by " + producer(stream) + ", expected one producer a stream");
     return false;
+  }
+
+  void add_inputs() {
+    const std::vector<Wire>& wires = description_.inputs;
+    if (!wires.empty() && wires.size() != ends_.inputs.size()) {
+      std::string expected;
+      for (const StreamType& type : ends_.inputs)
+        expected += (expected.empty() ? "" : ", ") + type.name;
+      report(description_.inputs_where, "inputs",
+             std::to_string(wires.size()) + " streams, but each frame of " + ends_.role +
+                 " brings " + std::to_string(ends_.inputs.size()) + ": " + expected);
+    }
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+      const StreamType type = i < ends_.inputs.size() ? ends_.inputs[i] : StreamType{};
+      add_stream({wires[i].stream, type, -1}, wires[i].where);
+      plan_.inputs.push_back(stream_of_[wires[i].stream]);
+    }
   }
 
   void add_node(const NodeDescription& node) {
@@ -277,24 +292,40 @@ class Planner {
     Stream& stream = plan_.streams[std::size_t(node.inputs[i])];
     const Port& port = node.spec->inputs[i];
     node.constant = node.constant && stream.constant;
-    if (stream.producer < 0 && !stream.constant && stream.type.name.empty())
-      stream.type = port.type;  // what comes with the frame is what its first reader takes
     if (stream.type.name.empty() || stream.type == port.type) return;
     if (stream.type.per_object && !port.type.per_object &&
         stream.type.element == port.type.element) {
       node.lift[i] = node.lifted = true;
       return;
     }
-    const std::string producer = stream.producer < 0
-                                     ? "the pipeline's input"
-                                     : "node " + plan_.nodes[std::size_t(stream.producer)].name;
+    if (stream.producer < 0 && !stream.constant) return report_input(stream, node, port);
+    const std::string producer =
+        stream.producer < 0 ? "the run" : "node " + plan_.nodes[std::size_t(stream.producer)].name;
     report(node.where, node.name + "." + port.name,
            "expected " + port.type.name + ", but " + producer + " produces '" + stream.name +
                "' as " + stream.type.name);
   }
 
+  /// Where it is named an input, since it may be another node that should read it.
+  void report_input(const Stream& stream, const PlannedNode& reader, const Port& port) {
+    for (const Wire& wire : description_.inputs)
+      if (wire.stream == stream.name)
+        report(wire.where, stream.name,
+               "comes as " + stream.type.name + " with each frame of " + ends_.role + ", but " +
+                   reader.name + "." + port.name + " expects " + port.type.name);
+  }
+
+  void check_result() {
+    if (plan_.result < 0) return;  // reported
+    const StreamType& type = plan_.streams[std::size_t(plan_.result)].type;
+    if (!type.name.empty() && !(type == ends_.result))
+      report(description_.result.where, "result",
+             "'" + description_.result.stream + "' is " + type.name + ", expected " +
+                 ends_.result.name + ", which " + ends_.role + " gives");
+  }
+
   const PipelineDescription& description_;
-  const std::map<std::string, StreamType>& constants_;
+  const PlanEnds& ends_;
   std::vector<Problem>& problems_;
   Plan plan_;
   std::map<std::string, int> stream_of_;
@@ -302,9 +333,9 @@ class Planner {
 
 }  // namespace
 
-Plan make_plan(const PipelineDescription& description,
-               const std::map<std::string, StreamType>& constants, std::vector<Problem>& problems) {
-  return Planner(description, constants, problems).run();
+Plan make_plan(const PipelineDescription& description, const PlanEnds& ends,
+               std::vector<Problem>& problems) {
+  return Planner(description, ends, problems).run();
 }
 
 }  // namespace posevote::graph

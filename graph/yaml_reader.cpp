@@ -163,6 +163,7 @@ PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>&
                       pipeline.models_where = reader.at(value);
                     } else if (key == "inputs") {
                       pipeline.inputs = reader.wires(value, at, key);
+                      pipeline.inputs_where = reader.at(value);
                     } else if (key == "result") {
                       pipeline.result = {"", reader.scalar(value, at, key), reader.at(value)};
                     } else if (key == "nodes") {

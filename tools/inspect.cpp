@@ -93,7 +93,9 @@ std::string section(const NodeSpec& spec) {
 
 int check_command(const std::string& config, const std::vector<std::string>& set) {
   const Configuration configuration = load_configuration(config, set);
-  std::cout << config << ": fine, " << configuration.scenes.nodes.size() << " nodes a scan and "
+  const std::size_t scenes = configuration.scenes.nodes.size();
+  std::cout << config << ": fine, "
+            << (scenes > 0 ? std::to_string(scenes) + " nodes a scan and " : "")
             << configuration.models.nodes.size() << " nodes for the models\n";
   return 0;
 }

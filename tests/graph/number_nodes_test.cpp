@@ -109,39 +109,25 @@ const auto r9 = graph::register_node("nested", nested, "A loop inside.").input("
 
 }  // namespace
 
-graph::Plan plan_of(const std::string& yaml, std::vector<graph::Problem>& problems,
-                    const std::map<std::string, graph::StreamType>& constants) {
-  const TemporaryFolder folder;
-  graph::PipelineDescription pipeline =
-      graph::read_pipeline(folder.write("test.yaml", yaml), problems);
-  graph::resolve_likes(pipeline, nullptr, problems);
-  for (graph::Problem& problem : problems) problem.where.file = "test.yaml";
-  graph::Plan plan = graph::make_plan(pipeline, constants, problems);
-  for (graph::Problem& problem : problems) problem.where.file = "test.yaml";
-  return plan;
-}
-
-graph::Plan plan_of(const std::string& yaml,
-                    const std::map<std::string, graph::StreamType>& constants) {
+NumberPipeline plan_of(const std::string& yaml,
+                       const std::map<std::string, graph::StreamType>& constants) {
   std::vector<graph::Problem> problems;
-  graph::Plan plan = plan_of(yaml, problems, constants);
+  NumberPipeline plan = plan_of<Number(Number)>(yaml, problems, constants);
   for (const graph::Problem& problem : problems) FAIL(to_string(problem));
   return plan;
 }
 
-graph::RunSummary run_numbers(const graph::Plan& plan, std::size_t count,
+graph::RunSummary run_numbers(const NumberPipeline& plan, std::size_t count,
                               const graph::RunOptions& options,
-                              const std::function<void(const graph::FrameResult&)>& on_result,
-                              const std::map<std::string, graph::Value>& constants) {
-  return graph::run(
-      plan, constants, count,
-      [](std::size_t i) {
-        graph::Frame frame;
-        frame.context.number = i;
-        frame.inputs = {number(static_cast<int>(i))};
-        return frame;
-      },
-      options, on_result);
+                              const std::function<void(const NumberResult&)>& on_result,
+                              const graph::Constants& constants) {
+  const auto make_frame = [](std::size_t i) {
+    graph::Frame<Number> frame;
+    frame.context.number = i;
+    frame.inputs = {Number{static_cast<int>(i)}};
+    return frame;
+  };
+  return graph::run(plan, constants, graph::counted(count, make_frame), options, on_result);
 }
 
 }  // namespace posevote::test

@@ -11,17 +11,19 @@ using namespace posevote::test;
 namespace {
 
 /// The problems of a pipeline, one "file:line:column: subject: text" a line.
+template <class Signature = Number(Number)>
 std::vector<std::string> problems_of(const std::string& yaml) {
   std::vector<graph::Problem> problems;
-  plan_of(yaml, problems);
+  plan_of<Signature>(yaml, problems);
   std::vector<std::string> lines;
   for (const graph::Problem& problem : problems) lines.push_back(to_string(problem));
   return lines;
 }
 
 /// Exactly one problem, which begins with `begin` and contains `part`.
+template <class Signature = Number(Number)>
 void check_one(const std::string& yaml, const std::string& begin, const std::string& part) {
-  const std::vector<std::string> lines = problems_of(yaml);
+  const std::vector<std::string> lines = problems_of<Signature>(yaml);
   for (const std::string& line : lines) UNSCOPED_INFO(line);
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].rfind(begin, 0) == 0);
@@ -81,6 +83,30 @@ TEST_CASE("one problem at a time", "[plan]") {
             "test.yaml:4:1: results: ", "unknown key, did you mean 'result'?");
   check_one(kHead + "  multiply: {in: n, out: r}\n bad indent: [\n",
             "test.yaml:5:", "not valid YAML");
+}
+
+TEST_CASE("the types of both ends are checked where they are named", "[plan]") {
+  check_one(kHead + "  to_text: {in: n, out: r}\n", "test.yaml:2:9: result: ",
+            "'r' is test::Text, expected test::Number, which a pipeline of the tests gives");
+  check_one<Number(Text)>(kHead + "  multiply: {in: n, out: r}\n", "test.yaml:1:10: n: ",
+                          "comes as test::Text with each frame of a pipeline of the tests, but "
+                          "multiply.in expects test::Number");
+  check_one("inputs: [n, m]\nresult: r\nnodes:\n  add: {in: [n, m], out: r}\n",
+            "test.yaml:1:9: inputs: ",
+            "2 streams, but each frame of a pipeline of the tests brings 1: test::Number");
+  check_one<PerObject<Number>(Number)>(
+      kHead + "  multiply: {in: n, out: r}\n",
+      "test.yaml:2:9: result: ", "expected PerObject<test::Number>");
+  CHECK(problems_of<Text(Number)>(kHead + "  to_text: {in: n, out: r}\n").empty());
+}
+
+TEST_CASE("a constant of another type is reported at the node that reads it", "[plan]") {
+  std::vector<graph::Problem> problems;
+  plan_of<Number(Number)>(kHead + "  add: {in: [n, c], out: r}\n", problems,
+                          {{"c", graph::StreamTraits<Text>::type()}});
+  REQUIRE(problems.size() == 1);
+  CHECK(to_string(problems[0]) ==
+        "test.yaml:4:3: add.b: expected test::Number, but the run produces 'c' as test::Text");
 }
 
 TEST_CASE("eight mistakes give eight located messages", "[plan]") {

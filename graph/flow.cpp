@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "graph/runner.hpp"
+#include "graph/flow.hpp"
 
 #include <oneapi/tbb/flow_graph.h>
 #include <oneapi/tbb/task_arena.h>
@@ -15,12 +15,16 @@ namespace posevote::graph {
 namespace {
 
 namespace flow = oneapi::tbb::flow;
+using detail::UntypedFrame;
+using detail::UntypedResult;
+using NextFrame = std::function<std::optional<UntypedFrame>()>;
+using OnResult = std::function<void(UntypedResult&&)>;
 
 /// One frame in flight. A stream's value is written once, by its producer, before the producer
 /// passes the frame on, and released by the last of its readers; arrivals count how many edges have
 /// come in.
 struct FrameState {
-  FrameState(std::size_t order, Frame entering, const Plan& plan)
+  FrameState(std::size_t order, UntypedFrame entering, const Plan& plan)
       : sequence(order),
         frame(std::move(entering)),
         values(plan.streams.size()),
@@ -33,7 +37,7 @@ struct FrameState {
   }
 
   std::size_t sequence;
-  Frame frame;
+  UntypedFrame frame;
   std::vector<Value> values;
   std::vector<std::atomic<int>> readers;
   std::vector<std::atomic<int>> arrivals;  ///< per node, the last one for the sink
@@ -44,14 +48,22 @@ struct FrameState {
 using Message = std::shared_ptr<FrameState>;
 using Stage = flow::multifunction_node<Message, std::tuple<Message>>;
 
+Value find_constant(const Stream& stream, const Constants& constants) {
+  const auto found = constants.find(stream.name);
+  if (found == constants.end())
+    throw std::invalid_argument("the constant '" + stream.name + "' is not given");
+  if (!(found->second.type == stream.type))
+    throw std::invalid_argument("the constant '" + stream.name + "' is " + found->second.type.name +
+                                ", expected " + stream.type.name);
+  return found->second.value;
+}
+
 class Runner {
  public:
-  Runner(const Plan& plan, const std::map<std::string, Value>& constants, std::size_t count,
-         const std::function<Frame(std::size_t)>& make_frame, const RunOptions& options,
-         const std::function<void(const FrameResult&)>& on_result)
+  Runner(const Plan& plan, const Constants& constants, const NextFrame& next_frame,
+         const RunOptions& options, const OnResult& on_result)
       : plan_(plan),
-        count_(count),
-        make_frame_(make_frame),
+        next_frame_(next_frame),
         options_(options),
         on_result_(on_result),
         constants_(plan.streams.size()),
@@ -65,7 +77,7 @@ class Runner {
         order_(graph_, [](const Message& message) { return message->sequence; }),
         sink_(graph_, flow::serial, [this](const Message& message) { return leave(message); }) {
     for (std::size_t i = 0; i < plan.streams.size(); ++i)
-      if (plan.streams[i].constant) constants_[i] = constants.at(plan.streams[i].name);
+      if (plan.streams[i].constant) constants_[i] = find_constant(plan.streams[i], constants);
     make_stages();
     make_edges();
   }
@@ -82,7 +94,7 @@ class Runner {
     if (entered_ != left_)
       throw std::logic_error("frames were lost: " + std::to_string(entered_) + " entered, " +
                              std::to_string(left_) + " left");
-    summary_.stopped = summary_.stopped || entered_ < count_;
+    summary_.stopped = summary_.stopped || !source_ended_;
     return summary_;
   }
 
@@ -97,12 +109,18 @@ class Runner {
   bool halted() const { return halt_ || (options_.interrupted && options_.interrupted->load()); }
 
   Message next(flow_control& control) {
-    if (entered_ == count_ || halted()) {
+    if (halted()) {
       control.stop();
       return nullptr;
     }
     try {
-      auto message = std::make_shared<FrameState>(entered_, make_frame_(entered_), plan_);
+      std::optional<UntypedFrame> frame = next_frame_();
+      if (!frame) {
+        source_ended_ = true;
+        control.stop();
+        return nullptr;
+      }
+      auto message = std::make_shared<FrameState>(entered_, std::move(*frame), plan_);
       for (std::size_t i = 0; i < plan_.inputs.size(); ++i)
         message->values[std::size_t(plan_.inputs[i])] = message->frame.inputs.at(i);
       ++entered_;
@@ -218,7 +236,7 @@ class Runner {
   flow::continue_msg leave(const Message& message) {
     ++left_;
     if (summary_.stopped || sink_error_) return {};
-    FrameResult result;
+    UntypedResult result;
     result.context = message->frame.context;
     const Stream& stream = plan_.streams[std::size_t(plan_.result)];
     result.result = stream.constant ? constants_[std::size_t(plan_.result)]
@@ -228,12 +246,13 @@ class Runner {
       if (failure && !result.failure) result.failure = failure;
     ++(result.failure ? summary_.failed : summary_.done);
     try {
-      on_result_(result);
+      const bool failed = result.failure.has_value();
+      on_result_(std::move(result));
+      if (failed && options_.stop_on_failure) summary_.stopped = halt_ = true;
     } catch (...) {
       sink_error_ = std::current_exception();
       halt_ = true;
     }
-    if (result.failure && options_.stop_on_failure) summary_.stopped = halt_ = true;
     return {};
   }
 
@@ -243,16 +262,16 @@ class Runner {
   }
 
   const Plan& plan_;
-  const std::size_t count_;
-  const std::function<Frame(std::size_t)>& make_frame_;
+  const NextFrame& next_frame_;
   const RunOptions options_;
-  const std::function<void(const FrameResult&)>& on_result_;
+  const OnResult& on_result_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
   std::vector<Value> constants_;
   std::vector<int> expected_;  ///< per node, the last one for the gate: edges that lead there
   std::size_t entered_ = 0;
   std::size_t left_ = 0;
+  bool source_ended_ = false;
   std::atomic<bool> halt_ = false;
   std::exception_ptr source_error_;
   std::exception_ptr sink_error_;
@@ -269,16 +288,17 @@ class Runner {
 
 }  // namespace
 
-std::map<std::string, Value> fold_constants(const Plan& plan,
-                                            std::map<std::string, Value> constants) {
+Constants fold_constants(const Plan& plan, Constants constants) {
   for (const PlannedNode& node : plan.nodes) {
     if (!node.constant) continue;
     std::vector<Value> inputs;
     for (const int input : node.inputs)
-      inputs.push_back(constants.at(plan.streams[std::size_t(input)].name));
+      inputs.push_back(find_constant(plan.streams[std::size_t(input)], constants));
     try {
       Value value = call_node(node, inputs, FrameContext{});
-      if (node.output >= 0) constants[plan.streams[std::size_t(node.output)].name] = value;
+      if (node.output < 0) continue;
+      const Stream& stream = plan.streams[std::size_t(node.output)];
+      constants[stream.name] = {stream.type, std::move(value)};
     } catch (const std::exception& error) {
       throw std::runtime_error(node.name + ": " + error.what());
     }
@@ -286,18 +306,9 @@ std::map<std::string, Value> fold_constants(const Plan& plan,
   return constants;
 }
 
-RunSummary run(const Plan& plan, const std::map<std::string, Value>& constants, std::size_t count,
-               const std::function<Frame(std::size_t)>& make_frame, const RunOptions& options,
-               const std::function<void(const FrameResult&)>& on_result) {
-  return Runner(plan, constants, count, make_frame, options, on_result).run();
-}
-
-FrameResult run_one(const Plan& plan, const std::map<std::string, Value>& constants, Frame frame) {
-  FrameResult only;
-  run(
-      plan, constants, 1, [&frame](std::size_t) { return frame; }, {},
-      [&only](const FrameResult& result) { only = result; });
-  return only;
+RunSummary detail::run_flow(const Plan& plan, const Constants& constants, const NextFrame& source,
+                            const RunOptions& options, const OnResult& on_result) {
+  return Runner(plan, constants, source, options, on_result).run();
 }
 
 }  // namespace posevote::graph
