@@ -5,58 +5,36 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 
-#include "graph/node_call.hpp"
+#include "graph/frame_work.hpp"
 
 namespace posevote::graph {
 namespace {
 
 namespace flow = oneapi::tbb::flow;
+using detail::FrameState;
+using detail::FrameWork;
 using detail::UntypedFrame;
 using detail::UntypedResult;
 using NextFrame = std::function<std::optional<UntypedFrame>()>;
 using OnResult = std::function<void(UntypedResult&&)>;
 
-/// One frame in flight. A stream's value is written once, by its producer, before the producer
-/// passes the frame on, and released by the last of its readers; arrivals count how many edges have
-/// come in.
-struct FrameState {
-  FrameState(std::size_t order, UntypedFrame entering, const Plan& plan)
-      : sequence(order),
-        frame(std::move(entering)),
-        values(plan.streams.size()),
-        readers(plan.streams.size()),
-        arrivals(plan.nodes.size() + 1),
-        failures(plan.nodes.size()),
-        spans(plan.nodes.size()) {
-    for (std::size_t i = 0; i < plan.streams.size(); ++i)
-      readers[i] = static_cast<int>(plan.streams[i].consumers.size());
-  }
-
-  std::size_t sequence;
-  UntypedFrame frame;
-  std::vector<Value> values;
-  std::vector<std::atomic<int>> readers;
-  std::vector<std::atomic<int>> arrivals;  ///< per node, the last one for the sink
-  std::vector<std::optional<Failure>> failures;
-  std::vector<Span> spans;
-};
-
 using Message = std::shared_ptr<FrameState>;
 using Stage = flow::multifunction_node<Message, std::tuple<Message>>;
+using Outlet = Stage::output_ports_type;
 
-Value find_constant(const Stream& stream, const Constants& constants) {
-  const auto found = constants.find(stream.name);
-  if (found == constants.end())
-    throw std::invalid_argument("the constant '" + stream.name + "' is not given");
-  if (!(found->second.type == stream.type))
-    throw std::invalid_argument("the constant '" + stream.name + "' is " + found->second.type.name +
-                                ", expected " + stream.type.name);
-  return found->second.value;
-}
+/// A node of the plan. `entry` waits for all edges that lead here. A node that sees the frames in
+/// order has them sorted and works on one at a time, in `serial`; any other works in `entry`.
+struct Station {
+  std::unique_ptr<Stage> entry;
+  std::unique_ptr<flow::sequencer_node<Message>> sorter;
+  std::unique_ptr<Stage> serial;
+
+  auto& exit() { return flow::output_port<0>(serial ? *serial : *entry); }
+};
 
 class Runner {
  public:
@@ -66,19 +44,17 @@ class Runner {
         next_frame_(next_frame),
         options_(options),
         on_result_(on_result),
-        constants_(plan.streams.size()),
+        work_(plan, constants, options.stop_on_failure),
         expected_(plan.nodes.size() + 1, 0),
         source_(graph_, [this](flow_control& control) { return next(control); }),
         limiter_(graph_, tokens()),
         gate_(graph_, flow::unlimited,
-              [this](const Message& message, Stage::output_ports_type& out) {
-                gather(message, out);
+              [this](const Message& message, Outlet& out) {
+                if (all_arrived(message, plan_.nodes.size())) std::get<0>(out).try_put(message);
               }),
         order_(graph_, [](const Message& message) { return message->sequence; }),
         sink_(graph_, flow::serial, [this](const Message& message) { return leave(message); }) {
-    for (std::size_t i = 0; i < plan.streams.size(); ++i)
-      if (plan.streams[i].constant) constants_[i] = find_constant(plan.streams[i], constants);
-    make_stages();
+    for (std::size_t i = 0; i < plan.nodes.size(); ++i) stations_.push_back(make_station(i));
     make_edges();
   }
 
@@ -90,7 +66,7 @@ class Runner {
     source_.activate();
     graph_.wait_for_all();
     if (source_error_) std::rethrow_exception(source_error_);
-    if (sink_error_) std::rethrow_exception(sink_error_);
+    if (error_) std::rethrow_exception(error_);
     if (entered_ != left_)
       throw std::logic_error("frames were lost: " + std::to_string(entered_) + " entered, " +
                              std::to_string(left_) + " left");
@@ -106,80 +82,116 @@ class Runner {
     return 2 * static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
   }
 
+  /// To be called where an exception is caught: it ends the run and comes out of it.
+  void end_by_exception() {
+    const std::lock_guard lock(error_mutex_);
+    if (!error_) error_ = std::current_exception();
+    broken_ = halt_ = true;
+  }
+
   bool halted() const { return halt_ || (options_.interrupted && options_.interrupted->load()); }
 
   Message next(flow_control& control) {
-    if (halted()) {
-      control.stop();
-      return nullptr;
-    }
     try {
-      std::optional<UntypedFrame> frame = next_frame_();
-      if (!frame) {
-        source_ended_ = true;
-        control.stop();
-        return nullptr;
+      std::optional<UntypedFrame> frame;
+      if (!halted()) {
+        frame = next_frame_();
+        source_ended_ = !frame;
       }
-      auto message = std::make_shared<FrameState>(entered_, std::move(*frame), plan_);
-      for (std::size_t i = 0; i < plan_.inputs.size(); ++i)
-        message->values[std::size_t(plan_.inputs[i])] = message->frame.inputs.at(i);
-      ++entered_;
-      return message;
+      if (frame) {
+        auto message = std::make_shared<FrameState>(entered_, std::move(*frame), plan_);
+        ++entered_;
+        return message;
+      }
     } catch (...) {
       source_error_ = std::current_exception();
-      control.stop();
-      return nullptr;
     }
+    control.stop();
+    return nullptr;
   }
 
-  void make_stages() {
-    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
-      stages_.push_back(plan_.nodes[i].constant
-                            ? nullptr
-                            : std::make_unique<Stage>(
-                                  graph_, flow::unlimited,
-                                  [this, i](const Message& message, Stage::output_ports_type& out) {
-                                    visit(i, message, out);
-                                  }));
-    }
+  Station make_station(std::size_t i) {
+    if (plan_.nodes[i].constant) return {};
+    const auto work = [this, i](const Message& message, Outlet& out) {
+      visit(i, *message);
+      std::get<0>(out).try_put(message);
+    };
+    const bool in_order = detail::in_order(plan_.nodes[i]);
+    Station station;
+    station.entry = std::make_unique<Stage>(
+        graph_, flow::unlimited, [this, i, in_order, work](const Message& message, Outlet& out) {
+          if (!all_arrived(message, i)) return;
+          if (in_order)
+            std::get<0>(out).try_put(message);
+          else
+            work(message, out);
+        });
+    if (!in_order) return station;
+    station.sorter = std::make_unique<flow::sequencer_node<Message>>(
+        graph_, [](const Message& message) { return message->sequence; });
+    station.serial = std::make_unique<Stage>(graph_, flow::serial, work);
+    flow::make_edge(flow::output_port<0>(*station.entry), *station.sorter);
+    flow::make_edge(*station.sorter, *station.serial);
+    return station;
   }
 
-  /// One edge from each distinct producer (the limiter for what comes with the frame) to each node.
-  /// A node whose output no other node reads, and one that only writes, lead to the gate.
+  /// What no other node waits for leads to the nodes that run last; they, or it, to the gate.
   void make_edges() {
-    std::vector<bool> leads_on(plan_.nodes.size(), false);
-    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
-      if (!stages_[i]) continue;
-      std::vector<int> producers;
-      for (const int input : plan_.nodes[i].inputs) {
-        const Stream& stream = plan_.streams[std::size_t(input)];
-        if (!stream.constant) producers.push_back(stream.producer);
-      }
-      std::sort(producers.begin(), producers.end());
-      producers.erase(std::unique(producers.begin(), producers.end()), producers.end());
-      expected_[i] = static_cast<int>(producers.size());
-      for (const int producer : producers) {
-        if (producer < 0) {
-          flow::make_edge(limiter_, *stages_[i]);
-        } else {
-          flow::make_edge(flow::output_port<0>(*stages_[std::size_t(producer)]), *stages_[i]);
-          leads_on[std::size_t(producer)] = true;
-        }
-      }
-    }
     flow::make_edge(source_, limiter_);
-    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
-      if (!stages_[i] || leads_on[i]) continue;
-      flow::make_edge(flow::output_port<0>(*stages_[i]), gate_);
-      ++expected_.back();
+    std::vector<bool> leads_on(plan_.nodes.size(), false);
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+      if (stations_[i].entry && !plan_.nodes[i].spec->last) lead_to(i, producers_of(i), leads_on);
+    const std::vector<bool> leads_on_before = leads_on;
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      if (!plan_.nodes[i].spec->last) continue;
+      std::vector<int> producers = producers_of(i);
+      for (std::size_t other = 0; other < stations_.size(); ++other)
+        if (stations_[other].entry && !plan_.nodes[other].spec->last && !leads_on_before[other])
+          producers.push_back(static_cast<int>(other));
+      lead_to(i, std::move(producers), leads_on);
     }
-    if (expected_.back() == 0) {  // nothing but constants: frames pass straight through
-      flow::make_edge(limiter_, gate_);
-      expected_.back() = 1;
-    }
+    lead_to_gate(leads_on);
     flow::make_edge(flow::output_port<0>(gate_), order_);
     flow::make_edge(order_, sink_);
     flow::make_edge(sink_, limiter_.decrementer());
+  }
+
+  /// The nodes whose output node i reads, -1 for what comes with the frame.
+  std::vector<int> producers_of(std::size_t i) const {
+    std::vector<int> producers;
+    for (const int input : plan_.nodes[i].inputs) {
+      const Stream& stream = plan_.streams[std::size_t(input)];
+      if (!stream.constant) producers.push_back(stream.producer);
+    }
+    return producers;
+  }
+
+  /// One edge from each distinct producer; from the limiter for what comes with the frame, and for
+  /// a node that waits for nothing.
+  void lead_to(std::size_t i, std::vector<int> producers, std::vector<bool>& leads_on) {
+    if (producers.empty()) producers.push_back(-1);
+    std::sort(producers.begin(), producers.end());
+    producers.erase(std::unique(producers.begin(), producers.end()), producers.end());
+    expected_[i] = static_cast<int>(producers.size());
+    for (const int producer : producers) {
+      if (producer < 0) {
+        flow::make_edge(limiter_, *stations_[i].entry);
+      } else {
+        flow::make_edge(stations_[std::size_t(producer)].exit(), *stations_[i].entry);
+        leads_on[std::size_t(producer)] = true;
+      }
+    }
+  }
+
+  void lead_to_gate(const std::vector<bool>& leads_on) {
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      if (!stations_[i].entry || leads_on[i]) continue;
+      flow::make_edge(stations_[i].exit(), gate_);
+      ++expected_.back();
+    }
+    if (expected_.back() > 0) return;
+    flow::make_edge(limiter_, gate_);  // nothing but constants: frames pass straight through
+    expected_.back() = 1;
   }
 
   /// True for the last of the edges that lead to a node (or to the gate).
@@ -187,124 +199,56 @@ class Runner {
     return message->arrivals[at].fetch_add(1) + 1 == expected_[at];
   }
 
-  void visit(std::size_t i, const Message& message, Stage::output_ports_type& out) {
-    if (!all_arrived(message, i)) return;
-    const PlannedNode& node = plan_.nodes[i];
-    std::vector<Value> inputs;
-    bool complete = true;
-    for (const int input : node.inputs) {
-      const std::size_t stream = std::size_t(input);
-      inputs.push_back(plan_.streams[stream].constant ? constants_[stream]
-                                                      : message->values[stream]);
-      complete = complete && inputs.back();
-    }
-    if (complete) call(i, inputs, *message);
-    inputs.clear();
-    release_inputs(node, *message);
-    std::get<0>(out).try_put(message);
-  }
-
-  void call(std::size_t i, const std::vector<Value>& inputs, FrameState& state) {
-    const PlannedNode& node = plan_.nodes[i];
-    Span& span = state.spans[i];
-    span.thread = oneapi::tbb::this_task_arena::current_thread_index();
-    span.begin = microseconds();
+  void visit(std::size_t i, FrameState& state) {
     try {
-      Value value = call_node(node, inputs, state.frame.context);
-      if (node.output >= 0) state.values[std::size_t(node.output)] = std::move(value);
-    } catch (const ObjectError& error) {
-      state.failures[i] = {node.name, error.what(), error.object, error.cause};
-    } catch (const std::exception& error) {
-      state.failures[i] = {node.name, reason_of(error)};
+      work_.visit(i, state);
     } catch (...) {
-      state.failures[i] = {node.name, "unknown exception"};
+      end_by_exception();
     }
-    span.end = microseconds();
-  }
-
-  void release_inputs(const PlannedNode& node, FrameState& state) const {
-    for (const int input : node.inputs) {
-      const std::size_t stream = std::size_t(input);
-      if (state.readers[stream].fetch_sub(1) == 1) state.values[stream].reset();
-    }
-  }
-
-  void gather(const Message& message, Stage::output_ports_type& out) {
-    if (all_arrived(message, plan_.nodes.size())) std::get<0>(out).try_put(message);
   }
 
   flow::continue_msg leave(const Message& message) {
     ++left_;
-    if (summary_.stopped || sink_error_) return {};
-    UntypedResult result;
-    result.context = message->frame.context;
-    const Stream& stream = plan_.streams[std::size_t(plan_.result)];
-    result.result = stream.constant ? constants_[std::size_t(plan_.result)]
-                                    : message->values[std::size_t(plan_.result)];
-    result.spans = std::move(message->spans);
-    for (const auto& failure : message->failures)
-      if (failure && !result.failure) result.failure = failure;
-    ++(result.failure ? summary_.failed : summary_.done);
+    if (summary_.stopped || broken_) return {};
+    UntypedResult result = work_.result(*message);
+    const bool failed = result.failure.has_value();
+    ++(failed ? summary_.failed : summary_.done);
     try {
-      const bool failed = result.failure.has_value();
       on_result_(std::move(result));
-      if (failed && options_.stop_on_failure) summary_.stopped = halt_ = true;
     } catch (...) {
-      sink_error_ = std::current_exception();
-      halt_ = true;
+      end_by_exception();
     }
+    if (failed && options_.stop_on_failure) summary_.stopped = halt_ = true;
     return {};
-  }
-
-  double microseconds() const {
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start_)
-        .count();
   }
 
   const Plan& plan_;
   const NextFrame& next_frame_;
   const RunOptions options_;
   const OnResult& on_result_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  FrameWork work_;
 
-  std::vector<Value> constants_;
   std::vector<int> expected_;  ///< per node, the last one for the gate: edges that lead there
   std::size_t entered_ = 0;
   std::size_t left_ = 0;
   bool source_ended_ = false;
-  std::atomic<bool> halt_ = false;
+  std::atomic<bool> halt_ = false;    ///< no frame enters any more
+  std::atomic<bool> broken_ = false;  ///< and none is reported
   std::exception_ptr source_error_;
-  std::exception_ptr sink_error_;
+  std::mutex error_mutex_;
+  std::exception_ptr error_;  ///< of a node or the receiver
   RunSummary summary_;
 
   flow::graph graph_;
   flow::input_node<Message> source_;
   flow::limiter_node<Message> limiter_;
-  std::vector<std::unique_ptr<Stage>> stages_;
+  std::vector<Station> stations_;
   Stage gate_;
   flow::sequencer_node<Message> order_;
   flow::function_node<Message, flow::continue_msg> sink_;
 };
 
 }  // namespace
-
-Constants fold_constants(const Plan& plan, Constants constants) {
-  for (const PlannedNode& node : plan.nodes) {
-    if (!node.constant) continue;
-    std::vector<Value> inputs;
-    for (const int input : node.inputs)
-      inputs.push_back(find_constant(plan.streams[std::size_t(input)], constants));
-    try {
-      Value value = call_node(node, inputs, FrameContext{});
-      if (node.output < 0) continue;
-      const Stream& stream = plan.streams[std::size_t(node.output)];
-      constants[stream.name] = {stream.type, std::move(value)};
-    } catch (const std::exception& error) {
-      throw std::runtime_error(node.name + ": " + error.what());
-    }
-  }
-  return constants;
-}
 
 RunSummary detail::run_flow(const Plan& plan, const Constants& constants, const NextFrame& source,
                             const RunOptions& options, const OnResult& on_result) {

@@ -15,14 +15,6 @@
 
 namespace posevote::graph {
 
-struct Failure {
-  std::string node;
-  std::string what;
-  /// Of a node that runs once for each object: which failed, from 0, and why, without its number.
-  std::optional<std::size_t> object = std::nullopt;
-  std::string cause{};
-};
-
 struct RunOptions {
   std::size_t tokens = 0;        ///< frames in flight; 0: twice the threads
   bool stop_on_failure = false;  ///< nothing after the first failed frame is reported

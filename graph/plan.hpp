@@ -26,12 +26,12 @@ struct PlannedNode {
   std::string name;
   const NodeSpec* spec = nullptr;
   std::shared_ptr<void> params;
-  std::vector<int> inputs;  ///< streams, in the order of the node type's ports
-  std::vector<bool> lift;   ///< per input: one slot of a PerObject stream at a time
-  int output = -1;          ///< stream, or -1 for a node that only writes
-  bool lifted = false;      ///< runs once per object
-  bool like = false;        ///< has type and parameters of another node
-  bool constant = false;    ///< all inputs are constants: runs once, before the first frame
+  std::vector<int> inputs;   ///< streams, in the order of the node type's ports
+  std::vector<bool> lift;    ///< per input: one slot of a PerObject stream at a time
+  std::vector<int> outputs;  ///< streams, in the order of the ports; -1 where nobody wants one
+  bool lifted = false;       ///< runs once per object
+  bool like = false;         ///< has type and parameters of another node
+  bool constant = false;     ///< all inputs are constants: runs once, before the first frame
   Location where;
 };
 

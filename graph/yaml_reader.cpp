@@ -76,6 +76,19 @@ struct Reader {
     return "";
   }
 
+  /// A parameter's value: a plain one, or a list of them.
+  Setting setting(const YAML::Node& node, const Location& key, const std::string& subject) const {
+    if (!node.IsSequence())
+      return {scalar(node, key, subject), node.IsScalar() ? at(node) : key, false};
+    std::vector<std::string> items;
+    for (const auto& item : node) {
+      items.push_back(scalar(item, key, subject));
+      if (items.back().find(',') != std::string::npos)
+        report(at(item), subject, "'" + items.back() + "': an item of a list holds no comma");
+    }
+    return {join_list(items), at(node), true};
+  }
+
   /// `a`, `[a, b]` or `{port: a}`.
   std::vector<Wire> wires(const YAML::Node& node, const Location& key,
                           const std::string& subject) const {
@@ -112,17 +125,14 @@ NodeDescription read_node(const Reader& reader, const std::string& name, const L
                     if (key == "in") {
                       node.inputs = reader.wires(value, at, subject);
                     } else if (key == "out") {
-                      const std::vector<Wire> outputs = reader.wires(value, at, subject);
-                      if (outputs.size() > 1) reader.report(at, subject, "a node has one output");
-                      if (!outputs.empty()) node.output = outputs.front();
+                      node.outputs = reader.wires(value, at, subject);
                     } else if (key == "node") {
                       node.type = reader.scalar(value, at, subject);
                       has_type = true;
                     } else if (key == "like") {
                       node.like = reader.scalar(value, at, subject);
                     } else {
-                      node.settings[key] = {reader.scalar(value, at, subject),
-                                            value.IsScalar() ? reader.at(value) : at};
+                      node.settings[key] = reader.setting(value, at, subject);
                     }
                   });
   if (has_type && !node.like.empty())
@@ -198,9 +208,9 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
         reader.for_each(
             body, node,
             [&](const std::string& key, const Location& where, const YAML::Node& value) {
-              const std::string text = reader.scalar(value, where, node + "." + key);
-              if (value.IsScalar())
-                config.overrides.push_back({node, key, {text, reader.at(value)}});
+              const Setting setting = reader.setting(value, where, node + "." + key);
+              if (value.IsScalar() || value.IsSequence())
+                config.overrides.push_back({node, key, setting});
             });
       });
   if (config.pipeline.empty())
@@ -234,7 +244,9 @@ Override read_set(const std::string& argument, std::vector<Problem>& problems) {
 std::vector<Override> apply_overrides(PipelineDescription& pipeline,
                                       const std::vector<Override>& overrides) {
   std::vector<Override> left;
+  int layer = 0;
   for (const Override& change : overrides) {
+    ++layer;
     const auto node =
         std::find_if(pipeline.nodes.begin(), pipeline.nodes.end(),
                      [&](const NodeDescription& other) { return other.name == change.node; });
@@ -245,6 +257,7 @@ std::vector<Override> apply_overrides(PipelineDescription& pipeline,
       node->where = change.setting.where;
     } else {
       node->settings[change.key] = change.setting;
+      node->settings[change.key].layer = layer;
     }
   }
   return left;

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 #include "graph/plan.hpp"
 #include "graph/runner.hpp"
@@ -21,6 +22,8 @@ struct Text {
 
 /// Most bodies of `wait_a_little` that ever ran at one time since it was last set to 0.
 extern std::atomic<int> peak_bodies;
+/// What `keep_log` has seen: "VALUE after NODE NODE ..." or "NODE: WHAT".
+extern std::vector<std::string> logged;
 /// Times `swallow` was called.
 extern std::atomic<int> swallowed;
 

@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <optional>
 #include <thread>
+#include <tuple>
 
 #include "graph/parallel.hpp"
 
@@ -11,6 +13,7 @@ namespace posevote::test {
 
 std::atomic<int> peak_bodies = 0;
 std::atomic<int> swallowed = 0;
+std::vector<std::string> logged;
 
 namespace {
 
@@ -80,6 +83,67 @@ Number nested(const Number& in, const None&) {
   return {in.value + total};
 }
 
+/// The smaller and the larger half.
+std::tuple<Number, Text> halve(const Number& in, const None&) {
+  return {Number{in.value / 2}, Text{std::to_string(in.value - in.value / 2)}};
+}
+Number count_letters(const Text& in, const None&) { return {static_cast<int>(in.value.size())}; }
+
+struct Total {
+  int sum = 0;
+  int missing = 0;
+  std::thread::id busy;
+};
+/// A thousand for each frame that is missing, and all values so far. Not to be entered twice.
+Number add_up(Total& total, const Number& in, const None&) {
+  if (total.busy != std::thread::id()) throw std::logic_error("entered twice");
+  total.busy = std::this_thread::get_id();
+  std::this_thread::sleep_for(std::chrono::microseconds(100));
+  total.sum += in.value;
+  total.busy = std::thread::id();
+  return {total.sum + 1000 * total.missing};
+}
+void miss(Total& total, const graph::Failure&, const graph::FrameContext&, const None&) {
+  ++total.missing;
+}
+
+struct Limit {
+  int limit = 1000;
+};
+struct Log {
+  explicit Log(const Limit& params) : limit(params.limit) { logged.clear(); }
+  int limit;
+};
+void keep_log(Log& log, const Number& in, const graph::FrameContext& context, const Limit&) {
+  if (static_cast<int>(logged.size()) >= log.limit) throw graph::EndOfRun("the log is full");
+  std::string line = std::to_string(in.value) + " after";
+  for (const graph::Stage& stage : context.stages)
+    if (stage.span.ran()) line += " " + stage.node;
+  logged.push_back(line);
+}
+void log_failure(Log&, const graph::Failure& failure, const graph::FrameContext&, const Limit&) {
+  logged.push_back(failure.node + ": " + failure.what);
+}
+
+struct Weights {
+  std::vector<int> weights{1, 2};
+  std::vector<std::string> words;
+  std::optional<double> least;
+  std::optional<double> most;
+};
+Text weigh(const Number& in, const Weights& params) {
+  int sum = 0;
+  for (const int weight : params.weights) sum += weight * in.value;
+  std::string text = std::to_string(sum);
+  for (const std::string& word : params.words) text += " " + word;
+  return {text + (params.least ? " at least" : "")};
+}
+std::string check_weights(const Weights& params) {
+  if (params.least && params.most && *params.least > *params.most)
+    return "`least` must not be above `most`";
+  return "";
+}
+
 const auto r1 =
     graph::register_node("multiply", multiply, "Times a factor.")
         .input("in")
@@ -106,6 +170,29 @@ const auto r7 = graph::register_node("swallow", swallow, "Only writes.").input("
 const auto r8 =
     graph::register_node("wait_a_little", wait_a_little, "Waits.").input("in").output("out");
 const auto r9 = graph::register_node("nested", nested, "A loop inside.").input("in").output("out");
+
+const auto r10 =
+    graph::register_node("halve", halve, "Two halves.").input("in").output("small").output("large");
+const auto r11 = graph::register_node("count_letters", count_letters, "Of a text.")
+                     .input("text")
+                     .output("count");
+const auto r12 = graph::register_stateful_node<Total>("add_up", add_up, "Sum of all frames.")
+                     .input("in")
+                     .output("sum")
+                     .on_failure(miss);
+const auto r13 = graph::register_stateful_node<Log>("keep_log", keep_log, "What it sees.")
+                     .input("in")
+                     .last()
+                     .on_failure(log_failure)
+                     .param("limit", &Limit::limit, "frames", "Ends the run.");
+const auto r14 = graph::register_node("weigh", weigh, "Weighs.")
+                     .input("in")
+                     .output("text")
+                     .param("weights", &Weights::weights, "", "Factors.", graph::at_least(0))
+                     .param("words", &Weights::words, "", "Added.", graph::one_of({"a", "b"}))
+                     .param("least", &Weights::least, "m", "Not less.", graph::at_least(0))
+                     .param("most", &Weights::most, "m", "Not more.", graph::at_least(0))
+                     .check(check_weights);
 
 }  // namespace
 

@@ -277,6 +277,84 @@ TEST_CASE("all objects of a frame may be a pipeline's result", "[runner]") {
   CHECK((*result.result)[2].value == 14);
 }
 
+TEST_CASE("several outputs travel apart, those of each object in its slot", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  halve: {in: n, out: [small, large]}\n"
+                                      "  count_letters: {in: large, out: letters}\n"
+                                      "  add: {in: [small, letters], out: r}\n");
+  int next = 0;
+  run_numbers(plan, 40, {}, [&](const auto& result) {
+    CHECK(result.result->value == next / 2 + (next - next / 2 < 10 ? 1 : 2));
+    ++next;
+  });
+  const NumberPipeline lifted =
+      plan_of(kHead +
+              "  split: {in: n, out: objects}\n"
+              "  halve: {in: objects, out: {large: large, small: small}}\n"
+              "  count_letters: {in: large, out: letters}\n"
+              "  add: {in: [small, letters], out: sums}\n"
+              "  sum: {in: sums, out: r}\n");
+  const auto result = graph::run_one(lifted, {}, {{}, {Number{4}}});
+  CHECK(result.result->value == 334);  // 4/2 + 1, 5/2 + 1, 6/2 + 1
+}
+
+TEST_CASE("a node with a state sees the frames in order, failed ones apart, anew in each run",
+          "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  wait_a_little: {in: n, out: a}\n"
+                                      "  fail_on: {in: a, out: b, bad: 3}\n"
+                                      "  add_up: {in: b, out: s}\n"
+                                      "  multiply: {in: s, out: r, factor: 1}\n");
+  for (const int threads : {1, 2, 8})
+    with_threads(threads, [&] {
+      for (int run = 0; run < 2; ++run) {
+        int sum = 0, next = 0;
+        const auto summary = run_numbers(plan, 60, {}, [&](const NumberResult& result) {
+          const int n = next++;
+          REQUIRE(result.failure.has_value() == (n == 3));
+          if (n == 3) return;
+          sum += n;
+          CHECK(result.result->value == sum + (n > 3 ? 1000 : 0));
+        });
+        CHECK(summary.done == 59);
+        CHECK(summary.failed == 1);
+      }
+    });
+}
+
+TEST_CASE("a node that runs last knows all stages and every failure, in order", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  keep_log: {in: r}\n"
+                                      "  wait_a_little: {in: n, out: a}\n"
+                                      "  fail_on: {in: a, out: b, bad: 1}\n"
+                                      "  swallow: {in: b}\n"
+                                      "  multiply: {in: n, out: r, factor: 10}\n");
+  const std::string after = " after wait_a_little fail_on swallow multiply";
+  for (const int threads : {1, 8})
+    with_threads(threads, [&] {
+      for (const bool stop : {false, true}) {
+        graph::RunOptions options;
+        options.stop_on_failure = stop;
+        const auto summary = run_numbers(plan, 30, options, [](const auto&) {});
+        CHECK(summary.failed == 1);
+        REQUIRE(logged.size() == (stop ? 2 : 30));
+        CHECK(logged[0] == "0" + after);
+        CHECK(logged[1] == "fail_on: met 1");
+        if (!stop) CHECK(logged[29] == "290" + after);
+      }
+    });
+}
+
+TEST_CASE("a node may end the run where no frame could do better", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  wait_a_little: {in: n, out: r}\n"
+                                      "  keep_log: {in: r, limit: 5}\n");
+  with_threads(4, [&] {
+    CHECK_THROWS_WITH(run_numbers(plan, 100000, {}, [](const auto&) {}), "the log is full");
+    CHECK(logged.size() == 5);
+  });
+}
+
 TEST_CASE("no frames, and a second run of one plan", "[runner]") {
   const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
   CHECK(run_numbers(plan, 0, {}, [](const auto&) {}).done == 0);

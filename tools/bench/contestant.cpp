@@ -18,7 +18,7 @@ std::vector<std::string> without_writers(const BenchCommand& command, const Meth
   const graph::Plan plan = load_configuration(command.config, sets, {}, method.pipeline).scenes;
   for (const graph::PlannedNode& node : plan.nodes)
     for (const graph::ParamSpec& param : node.spec->params)
-      if (node.output < 0 && param.name == "every") sets.push_back(node.name + ".every=0");
+      if (node.outputs.empty() && param.name == "every") sets.push_back(node.name + ".every=0");
   return sets;
 }
 
