@@ -53,7 +53,8 @@ struct EvaluateCommand {
 };
 int evaluate_command(const EvaluateCommand& command);
 
-int check_command(const std::string& config, const std::vector<std::string>& set);
+/// `flat`: prints the pipeline with what it extends as one file.
+int check_command(const std::string& config, const std::vector<std::string>& set, bool flat);
 int nodes_command(const std::string& name);
 int graph_command(const std::string& config, const std::vector<std::string>& set);
 int docs_command(const std::string& file);

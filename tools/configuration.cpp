@@ -47,7 +47,7 @@ std::string lasting_name(const PipelineDescription& pipeline) {
 PipelineDescription read_named(const std::string& name, const graph::Location& where,
                                const std::string& config, std::vector<Problem>& problems) {
   const std::string file = find_pipeline(name, config);
-  if (!file.empty()) return graph::read_pipeline(file, problems);
+  if (!file.empty()) return graph::read_pipeline(file, problems, find_pipeline);
   problems.push_back({where, "",
                       "no pipeline is called '" + name + "', expected " + name +
                           ".yaml beside the config or in pipelines/"});
@@ -97,7 +97,7 @@ PipelineDescription read_wiring(const std::string& config, const std::string& pi
     if (!pipeline.empty())
       throw std::invalid_argument("--pipeline " + pipeline + ": " + file +
                                   " is a pipeline itself, expected a config");
-    return graph::read_pipeline(file, problems);
+    return graph::read_pipeline(file, problems, find_pipeline);
   }
   graph::ConfigDescription description = graph::read_config(file, problems);
   if (!pipeline.empty()) {
@@ -132,6 +132,7 @@ Configuration load_configuration(const std::string& config, const std::vector<st
   for (const std::string& set : sets) overrides.push_back(graph::read_set(set, problems));
   result.name = fs::path(find_config(config)).stem().string();
   result.pipeline = lasting_name(scenes);
+  result.wiring = scenes;
 
   PipelineDescription models;
   if (scenes.models.empty())

@@ -21,6 +21,7 @@ using ModelPipeline = graph::Pipeline<ModelLibrary(ModelFiles)>;
 struct Configuration {
   std::string name;      ///< of the config file, without folder and ending
   std::string pipeline;  ///< its name in pipelines/, or the path of another without its ending
+  graph::PipelineDescription wiring;  ///< the pipeline as written, with what it extends
   ScenePipeline scenes;  ///< no nodes where the pipeline has no `models`: it makes them itself
   ModelPipeline models;
 };

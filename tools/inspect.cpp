@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
+#include "graph/yaml_reader.hpp"
 #include "tools/commands.hpp"
 #include "tools/configuration.hpp"
 #include "tools/write_text.hpp"
@@ -107,8 +108,12 @@ std::string example(const NodeSpec& spec) {
   return text + "}";
 }
 
-int check_command(const std::string& config, const std::vector<std::string>& set) {
+int check_command(const std::string& config, const std::vector<std::string>& set, bool flat) {
   const Configuration configuration = load_configuration(config, set);
+  if (flat) {
+    std::cout << graph::to_yaml(configuration.wiring);
+    return 0;
+  }
   const std::size_t scenes = configuration.scenes.nodes.size();
   std::cout << config << ": fine, "
             << (scenes > 0 ? std::to_string(scenes) + " nodes a scan and " : "")

@@ -44,7 +44,8 @@ void train_once(Contestant& contestant, const ModelFiles& models) {
 void run_once(Contestant& contestant, const SceneEntry& scene) {
   const ScenePipeline& plan = contestant.configuration.scenes;
   const auto result =
-      graph::run_one(plan, contestant.constants, {{scene.number, scene.name, {}, 0}, {scene.file}});
+      graph::run_one(plan, contestant.constants,
+                     {{scene.number, scene.name, {}, 0, scene.file.path, {}}, {scene.file}});
   if (result.failure)
     throw std::runtime_error(scene.file.path.string() + ": " + result.failure->node + ": " +
                              result.failure->what);
