@@ -4,7 +4,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,8 @@ namespace posevote::graph {
 struct Setting {
   std::string text;
   Location where;
+  bool list = false;  ///< written as a YAML list
+  int layer = 0;      ///< what was set over others has a higher one
 };
 
 /// One end of a stream at a node.
@@ -32,7 +33,7 @@ struct NodeDescription {
   std::string like;  ///< takes type and parameters of that node; "" for a node of its own
   Location where;
   std::vector<Wire> inputs;
-  std::optional<Wire> output;
+  std::vector<Wire> outputs;
   std::map<std::string, Setting> settings;
 };
 
@@ -43,7 +44,8 @@ struct PipelineDescription {
   std::string models;  ///< pipeline whose result is a constant stream here; may be empty
   Location models_where;
   std::vector<Wire> inputs;  ///< streams that come with each frame
-  Wire result;               ///< the stream that a frame leaves with
+  Location inputs_where;
+  Wire result;  ///< the stream that a frame leaves with
   std::vector<NodeDescription> nodes;
 };
 

@@ -29,24 +29,27 @@ std::size_t count_objects(const PlannedNode& node, const std::vector<Value>& inp
   return count;
 }
 
-Value call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
-                  const FrameContext& context) {
+std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
+                               const FrameContext& context) {
   const std::size_t count = count_objects(node, inputs);
-  Slots outputs(count);
+  std::vector<Slots> outputs(node.outputs.size(), Slots(count));
   std::vector<std::optional<std::string>> errors(count);
   parallel_for(count, 1, [&](std::size_t object) {
     std::vector<Value> arguments = inputs;
     for (std::size_t i = 0; i < inputs.size(); ++i)
       if (node.lift[i]) arguments[i] = slots_of(inputs[i])[object];
     try {
-      outputs[object] = node.spec->call(arguments, context, node.params.get());
+      const std::vector<Value> values = node.spec->call(arguments, context, node.params.get());
+      for (std::size_t i = 0; i < values.size(); ++i) outputs[i][object] = values[i];
     } catch (const std::exception& error) {
       errors[object] = reason_of(error);
     }
   });
   for (std::size_t object = 0; object < count; ++object)
     if (errors[object]) throw ObjectError(object, *errors[object]);
-  return std::make_shared<const Slots>(std::move(outputs));
+  std::vector<Value> values;
+  for (Slots& slots : outputs) values.push_back(std::make_shared<const Slots>(std::move(slots)));
+  return values;
 }
 
 }  // namespace
@@ -55,10 +58,10 @@ std::string reason_of(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
 }
 
-Value call_node(const PlannedNode& node, const std::vector<Value>& inputs,
-                const FrameContext& context) {
+std::vector<Value> call_node(const PlannedNode& node, const std::vector<Value>& inputs,
+                             const FrameContext& context, void* state) {
   if (node.lifted) return call_lifted(node, inputs, context);
-  return node.spec->call(inputs, context, node.params.get());
+  return node.spec->call(inputs, context, node.params.get(), state);
 }
 
 }  // namespace posevote::graph

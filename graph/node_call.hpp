@@ -26,9 +26,9 @@ class ObjectError : public std::runtime_error {
   std::string cause;
 };
 
-/// Returns the output value (null for a node that only writes). Throws what the node throws; of
-/// several failing objects, the first one's exception, as an ObjectError.
-Value call_node(const PlannedNode& node, const std::vector<Value>& inputs,
-                const FrameContext& context);
+/// Returns a value for each output of the node's type. `state`: for a node that keeps one. Throws
+/// what the node throws; of several failing objects, the first one's exception, as an ObjectError.
+std::vector<Value> call_node(const PlannedNode& node, const std::vector<Value>& inputs,
+                             const FrameContext& context, void* state = nullptr);
 
 }  // namespace posevote::graph

@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include "graph/planner.hpp"
 
-#include "graph/plan.hpp"
+#include <algorithm>
 
 namespace posevote::graph {
 namespace {
 
-/// Turns a description into a plan, step by step, each step going on where others found problems.
-class Planner {
+/// Links nodes by the names of streams.
+class Wiring {
  public:
-  Planner(const PipelineDescription& description,
-          const std::map<std::string, StreamType>& constants, std::vector<Problem>& problems)
-      : description_(description), constants_(constants), problems_(problems) {}
+  Wiring(const PipelineDescription& description, const PlanEnds& ends,
+         std::vector<Problem>& problems)
+      : description_(description), ends_(ends), problems_(problems) {}
 
   Plan run() {
     plan_.name = description_.name;
-    for (const auto& [name, type] : constants_) add_stream({name, type, -1, true}, {});
-    for (const Wire& wire : description_.inputs) add_stream({wire.stream, {}, -1}, wire.where);
-    plan_.inputs.resize(description_.inputs.size());
-    for (std::size_t i = 0; i < plan_.inputs.size(); ++i)
-      plan_.inputs[i] = stream_of_[description_.inputs[i].stream];
-    for (const NodeDescription& node : description_.nodes) add_node(node);
+    for (const auto& [name, type] : ends_.constants) add_stream({name, type, -1, true}, {});
+    add_inputs();
+    for (const NodeDescription& node : description_.nodes) {
+      plan_.nodes.push_back(detail::plan_node(node, problems_));
+      add_outputs(node, static_cast<int>(plan_.nodes.size()) - 1);
+    }
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) connect(static_cast<int>(i));
     find_result();
-    sort();
-    check_types();
-    check_readers();
     return std::move(plan_);
   }
 
@@ -52,80 +49,45 @@ class Planner {
     return false;
   }
 
-  void add_node(const NodeDescription& node) {
-    PlannedNode planned;
-    planned.name = node.name;
-    planned.where = node.where;
-    planned.like = !node.like.empty();
-    planned.spec = find_type(node);
-    if (planned.spec) {
-      planned.params = planned.spec->make_params();
-      set_parameters(planned, node);
+  void add_inputs() {
+    const std::vector<Wire>& wires = description_.inputs;
+    if (!wires.empty() && wires.size() != ends_.inputs.size()) {
+      std::string expected;
+      for (const StreamType& type : ends_.inputs)
+        expected += (expected.empty() ? "" : ", ") + type.name;
+      report(description_.inputs_where, "inputs",
+             std::to_string(wires.size()) + " streams, but each frame of " + ends_.role +
+                 " brings " + std::to_string(ends_.inputs.size()) + ": " + expected);
     }
-    const int index = static_cast<int>(plan_.nodes.size());
-    plan_.nodes.push_back(std::move(planned));
-    add_output(node, index);
-  }
-
-  const NodeSpec* find_type(const NodeDescription& node) {
-    const NodeSpec* spec = find_node(node.type);
-    if (spec || !node.like.empty()) return spec;  // resolve_likes or the original reports
-    std::vector<std::string> known;
-    for (const NodeSpec* other : all_nodes()) known.push_back(other->name);
-    const std::string near = closest_name(node.type, known);
-    report(node.where, node.name,
-           "unknown node '" + node.type + "', " +
-               (near.empty() ? "`posevote nodes` lists what there is"
-                             : "did you mean '" + near + "'?"));
-    return nullptr;
-  }
-
-  void set_parameters(PlannedNode& planned, const NodeDescription& node) {
-    const bool own = !planned.like;  // else the original reports
-    for (const auto& [key, setting] : node.settings) {
-      const std::string subject = planned.name + "." + key;
-      const auto param =
-          std::find_if(planned.spec->params.begin(), planned.spec->params.end(),
-                       [&key = key](const ParamSpec& spec) { return spec.name == key; });
-      if (param == planned.spec->params.end()) {
-        if (own) report(setting.where, subject, unknown_parameter(*planned.spec, key));
-      } else if (const auto problem = param->set(planned.params.get(), setting.text)) {
-        if (own)
-          report(setting.where, subject,
-                 "'" + setting.text + "' is not allowed, " + *problem +
-                     (param->unit.empty() ? "" : " [" + param->unit + "]"));
-      }
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+      const StreamType type = i < ends_.inputs.size() ? ends_.inputs[i] : StreamType{};
+      add_stream({wires[i].stream, type, -1}, wires[i].where);
+      plan_.inputs.push_back(stream_of_[wires[i].stream]);
     }
-    if (const std::string wrong = planned.spec->check(planned.params.get()); own && !wrong.empty())
-      report(planned.where, planned.name, wrong);
   }
 
-  static std::string unknown_parameter(const NodeSpec& spec, const std::string& key) {
-    std::vector<std::string> known;
-    for (const ParamSpec& param : spec.params) known.push_back(param.name);
-    const std::string near = closest_name(key, known);
-    if (!near.empty()) return "unknown parameter, did you mean '" + near + "'?";
-    return "unknown parameter, `posevote nodes " + spec.name + "` lists what there is";
-  }
-
-  void add_output(const NodeDescription& node, int index) {
+  void add_outputs(const NodeDescription& node, int index) {
     PlannedNode& planned = plan_.nodes[std::size_t(index)];
-    const bool has_output = !planned.spec || planned.spec->output;
-    if (node.output && !has_output)
-      return report(node.output->where, node.name, "only writes, expected no `out`");
-    if (!node.output) {
-      if (planned.spec && has_output)
-        report(node.where, node.name,
-               "expected `out`: a name for its " + planned.spec->output->type.name);
-      return;
+    if (planned.spec) {
+      planned.outputs.assign(planned.spec->outputs.size(), -1);
+      if (!planned.outputs.empty() && node.outputs.empty())
+        report(node.where, node.name, "expected `out`: a name for its " + types_of(*planned.spec));
+      if (planned.outputs.empty() && !node.outputs.empty())
+        return report(node.outputs[0].where, node.name, "only writes, expected no `out`");
     }
-    if (planned.spec && !node.output->port.empty() &&
-        node.output->port != planned.spec->output->name)
-      report(node.output->where, node.name,
-             "has no output '" + node.output->port + "', expected '" + planned.spec->output->name +
-                 "'");
-    if (add_stream({node.output->stream, {}, index}, node.output->where))
-      planned.output = static_cast<int>(plan_.streams.size()) - 1;
+    for (std::size_t i = 0; i < node.outputs.size(); ++i) {
+      const Wire& wire = node.outputs[i];
+      const int port =
+          planned.spec ? find_port(planned, "output", planned.spec->outputs, wire, i) : -1;
+      if (add_stream({wire.stream, {}, index}, wire.where) && port >= 0)
+        planned.outputs[std::size_t(port)] = static_cast<int>(plan_.streams.size()) - 1;
+    }
+  }
+
+  static std::string types_of(const NodeSpec& spec) {
+    std::string types;
+    for (const Port& port : spec.outputs) types += (types.empty() ? "" : ", ") + port.type.name;
+    return types;
   }
 
   /// Finds the stream of each port of one node.
@@ -139,19 +101,21 @@ class Planner {
     }
     node.inputs.assign(node.spec->inputs.size(), -1);
     for (std::size_t i = 0; i < wires.size(); ++i) {
-      const int port = find_port(node, wires[i], i);
+      const int port = find_port(node, "input", node.spec->inputs, wires[i], i);
       const int stream = read_stream(wires[i], index);
       if (port >= 0) node.inputs[std::size_t(port)] = stream;
     }
     check_ports(node, description);
   }
 
-  int find_port(const PlannedNode& node, const Wire& wire, std::size_t position) {
-    const std::vector<Port>& ports = node.spec->inputs;
+  /// The place of a wire's port among `ports`, or -1 and a problem. `kind`: "input" or "output".
+  int find_port(const PlannedNode& node, const std::string& kind, const std::vector<Port>& ports,
+                const Wire& wire, std::size_t position) {
     if (wire.port.empty()) {
       if (position < ports.size()) return static_cast<int>(position);
       report(wire.where, node.name,
-             "has " + std::to_string(ports.size()) + " inputs, '" + wire.stream + "' is one more");
+             "has " + std::to_string(ports.size()) + " " + kind + "s, '" + wire.stream +
+                 "' is one more");
       return -1;
     }
     std::vector<std::string> known;
@@ -161,7 +125,7 @@ class Planner {
     }
     const std::string near = closest_name(wire.port, known);
     report(wire.where, node.name,
-           "has no input '" + wire.port + "'" +
+           "has no " + kind + " '" + wire.port + "'" +
                (near.empty() ? "" : ", did you mean '" + near + "'?"));
     return -1;
   }
@@ -197,104 +161,8 @@ class Planner {
     if (!description_.result.stream.empty()) plan_.result = read_stream(description_.result, -1);
   }
 
-  void check_readers() {
-    for (const Stream& stream : plan_.streams) {
-      if (!stream.consumers.empty() || stream.constant) continue;
-      const Location& where = stream.producer >= 0 ? plan_.nodes[std::size_t(stream.producer)].where
-                                                   : description_.where;
-      report(where, stream.name, "nobody reads this stream, expected a reader or no such output");
-    }
-  }
-
-  /// Orders the nodes so that producers come first, else in the order in which they are written.
-  void sort() {
-    std::vector<int> order;
-    std::vector<bool> placed(plan_.nodes.size(), false);
-    const auto ready = [&](std::size_t i) {
-      return std::all_of(plan_.nodes[i].inputs.begin(), plan_.nodes[i].inputs.end(), [&](int s) {
-        const int producer = s < 0 ? -1 : plan_.streams[std::size_t(s)].producer;
-        return producer < 0 || placed[std::size_t(producer)];
-      });
-    };
-    for (bool moved = true; moved;) {
-      moved = false;
-      for (std::size_t i = 0; i < plan_.nodes.size() && !moved; ++i) {
-        if (placed[i] || !ready(i)) continue;
-        placed[i] = moved = true;
-        order.push_back(static_cast<int>(i));
-      }
-    }
-    if (order.size() < plan_.nodes.size()) report_cycle(placed);
-    for (std::size_t i = 0; i < placed.size(); ++i)
-      if (!placed[i]) order.push_back(static_cast<int>(i));
-    reorder(order);
-  }
-
-  void report_cycle(const std::vector<bool>& placed) {
-    std::string members;
-    for (std::size_t i = 0; i < placed.size(); ++i)
-      if (!placed[i]) members += (members.empty() ? "" : ", ") + plan_.nodes[i].name;
-    const auto first = std::find(placed.begin(), placed.end(), false) - placed.begin();
-    const PlannedNode& node = plan_.nodes[static_cast<std::size_t>(first)];
-    report(node.where, node.name, "waits for itself: a cycle through or before " + members);
-  }
-
-  void reorder(const std::vector<int>& order) {
-    std::vector<PlannedNode> nodes;
-    std::vector<int> place(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      place[std::size_t(order[i])] = static_cast<int>(i);
-      nodes.push_back(std::move(plan_.nodes[std::size_t(order[i])]));
-    }
-    plan_.nodes = std::move(nodes);
-    for (Stream& stream : plan_.streams) {
-      if (stream.producer >= 0) stream.producer = place[std::size_t(stream.producer)];
-      for (int& consumer : stream.consumers)
-        if (consumer >= 0) consumer = place[std::size_t(consumer)];
-    }
-  }
-
-  void check_types() {
-    for (PlannedNode& node : plan_.nodes) {
-      node.lift.assign(node.inputs.size(), false);
-      node.constant = !node.inputs.empty();
-      for (std::size_t i = 0; i < node.inputs.size(); ++i) check_input(node, i);
-      if (node.output < 0 || !node.spec) continue;
-      Stream& out = plan_.streams[std::size_t(node.output)];
-      out.constant = node.constant;
-      out.type = node.spec->output->type;
-      if (!node.lifted) continue;
-      if (out.type.per_object)
-        report(node.where, node.name,
-               "makes one " + out.type.name + " of one object, but would run for each object");
-      out.type.per_object = true;
-      out.type.name = "PerObject<" + out.type.name + ">";
-    }
-  }
-
-  void check_input(PlannedNode& node, std::size_t i) {
-    if (node.inputs[i] < 0) return void(node.constant = false);  // already reported
-    Stream& stream = plan_.streams[std::size_t(node.inputs[i])];
-    const Port& port = node.spec->inputs[i];
-    node.constant = node.constant && stream.constant;
-    if (stream.producer < 0 && !stream.constant && stream.type.name.empty())
-      stream.type = port.type;  // what comes with the frame is what its first reader takes
-    if (stream.type.name.empty() || stream.type == port.type) return;
-    if (stream.type.per_object && !port.type.per_object &&
-        stream.type.element == port.type.element) {
-      node.lift[i] = node.lifted = true;
-      return;
-    }
-    const std::string producer = stream.producer < 0
-                                     ? "the pipeline's input"
-                                     : "node " + plan_.nodes[std::size_t(stream.producer)].name;
-    report(node.where, node.name + "." + port.name,
-           "expected " + port.type.name + ", but " + producer + " produces '" + stream.name +
-               "' as " + stream.type.name);
-  }
-
   const PipelineDescription& description_;
-  const std::map<std::string, StreamType>& constants_;
+  const PlanEnds& ends_;
   std::vector<Problem>& problems_;
   Plan plan_;
   std::map<std::string, int> stream_of_;
@@ -302,9 +170,17 @@ class Planner {
 
 }  // namespace
 
-Plan make_plan(const PipelineDescription& description,
-               const std::map<std::string, StreamType>& constants, std::vector<Problem>& problems) {
-  return Planner(description, constants, problems).run();
+Plan detail::wire(const PipelineDescription& description, const PlanEnds& ends,
+                  std::vector<Problem>& problems) {
+  return Wiring(description, ends, problems).run();
+}
+
+Plan make_plan(const PipelineDescription& description, const PlanEnds& ends,
+               std::vector<Problem>& problems) {
+  Plan plan = detail::wire(description, ends, problems);
+  detail::order_nodes(plan, problems);
+  detail::check_types(plan, description, ends, problems);
+  return plan;
 }
 
 }  // namespace posevote::graph

@@ -5,12 +5,21 @@
 //       register_node("downsample_voxels", downsample_voxels, "One point per occupied voxel.")
 //           .input("cloud").input("scale").output("cloud")
 //           .param("leaf_size", &Params::leaf_size, "x resolution", "Edge of a voxel.",
-//           greater_than(0));
+//                  greater_than(0));
 //
 // The function is pure: `Out f(const In&..., const Params&)`. It may also take a `const
 // FrameContext&` before its Params (writers need the output folder). An Out of void makes a node
-// that only writes. An In or Out of PerObject<T> means all objects of the frame; a plain T fed by a
-// PerObject<T> stream is lifted: the function runs once per object, in parallel.
+// that only writes, a std::tuple one with several outputs. An In or Out of PerObject<T> means all
+// objects of the frame; a plain T fed by a PerObject<T> stream is lifted: the function runs once
+// per object, in parallel.
+//
+// A node that carries something from frame to frame keeps it in a state, which each run makes anew:
+//
+//   Out f(State&, const In&..., const Params&)
+//   register_stateful_node<State>("smooth_poses", smooth_poses, "...")
+//
+// It sees the frames one by one, in their order. Frames that failed before they came to it are left
+// out; `.on_failure(hook)` is told of them.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +27,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -25,16 +35,41 @@
 #include <vector>
 
 #include "graph/schema.hpp"
+#include "graph/span.hpp"
 #include "graph/value.hpp"
 
 namespace posevote::graph {
 
+/// What one node of a frame took.
+struct Stage {
+  std::string node;
+  Span span;
+};
+
 /// What a node may know about its frame beyond its inputs.
 struct FrameContext {
-  std::uint64_t number = 0;   ///< of the frame in this run
-  std::string name;           ///< for file names: unique within a run, made from the scene's path
-  std::filesystem::path out;  ///< output folder of the run; empty where nothing is to be written
-  std::uint64_t seed = 0;     ///< the user's seed
+  std::uint64_t number = 0;    ///< of the frame in this run
+  std::string name;            ///< for file names: unique within a run, made from the scene's path
+  std::filesystem::path out;   ///< output folder of the run; empty where nothing is to be written
+  std::uint64_t seed = 0;      ///< the user's seed
+  std::filesystem::path file;  ///< what the frame was made from, for messages
+  std::vector<Stage> stages;  ///< all others of the plan, in its order; only for one that runs last
+};
+
+/// Why a frame has no result.
+struct Failure {
+  std::string node;
+  std::string what;
+  /// Of a node that runs once for each object: which failed, from 0, and why, without its number.
+  std::optional<std::size_t> object = std::nullopt;
+  std::string cause{};
+};
+
+/// What a node throws where no other frame could do better, as for a full disk: it ends the run and
+/// comes out of it.
+class EndOfRun : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 struct Port {
@@ -48,15 +83,28 @@ struct NodeSpec {
   std::string doc;
   std::string source;  ///< file that registered it
   std::vector<Port> inputs;
-  std::optional<Port> output;  ///< none: the node only writes
+  std::vector<Port> outputs;  ///< none: the node only writes
   std::vector<ParamSpec> params;
   std::function<std::shared_ptr<void>()> make_params;
   /// A rule between parameters: "" or what is wrong.
   std::function<std::string(const void* params)> check;
-  /// Runs the function. Throws what the function throws. Returns null for a node that only writes.
-  std::function<Value(const std::vector<Value>& inputs, const FrameContext& context,
-                      const void* params)>
-      call;
+  /// Makes what the node carries from frame to frame; empty where it carries nothing.
+  std::function<std::shared_ptr<void>(const void* params)> make_state;
+  /// Tells the state of a frame that failed before it came here; may be empty.
+  std::function<void(void* state, const Failure& failure, const FrameContext& context,
+                     const void* params)>
+      on_failure;
+  bool last = false;  ///< runs after all other nodes of the frame
+  std::function<std::vector<Value>(const std::vector<Value>& inputs, const FrameContext& context,
+                                   const void* params, void* state)>
+      function;
+
+  /// Runs the function; `state` is for a node that keeps one. Throws what the function throws.
+  /// Returns a value for each output.
+  std::vector<Value> call(const std::vector<Value>& values, const FrameContext& context,
+                          const void* node_params, void* state = nullptr) const {
+    return function(values, context, node_params, state);
+  }
 };
 
 /// The node type of that name, or null.
@@ -71,32 +119,57 @@ namespace detail {
 template <class T>
 constexpr bool kIsContext = std::is_same_v<std::decay_t<T>, FrameContext>;
 
-/// Calls `function`, taking inputs in order from `values` and context and params where they stand.
-template <class Params, class R, class... Args, std::size_t... I>
-Value invoke(R (*function)(Args...), const std::vector<Value>& values, const FrameContext& context,
-             const void* params, std::index_sequence<I...>) {
+template <class T>
+struct Outputs {
+  static std::vector<Port> ports() { return {{"", StreamTraits<T>::type()}}; }
+  static std::vector<Value> wrap(T&& value) { return {StreamTraits<T>::wrap(std::move(value))}; }
+};
+template <>
+struct Outputs<void> {
+  static std::vector<Port> ports() { return {}; }
+};
+template <class... T>
+struct Outputs<std::tuple<T...>> {
+  static std::vector<Port> ports() { return {{"", StreamTraits<T>::type()}...}; }
+  static std::vector<Value> wrap(std::tuple<T...>&& values) {
+    const auto each = [](T&&... value) {
+      return std::vector<Value>{StreamTraits<T>::wrap(std::move(value))...};
+    };
+    return std::apply(each, std::move(values));
+  }
+};
+
+/// Calls `function`, taking inputs in order from `values` and state, context and params where they
+/// stand. State: void for a function without one.
+template <class State, class Params, class R, class... Args, std::size_t... I>
+std::vector<Value> invoke(R (*function)(Args...), const std::vector<Value>& values,
+                          const FrameContext& context, const void* params,
+                          [[maybe_unused]] void* state, std::index_sequence<I...>) {
+  constexpr std::size_t kBefore = std::is_void_v<State> ? 0 : 1;
   const auto argument =
       [&]<std::size_t K>(std::integral_constant<std::size_t, K>) -> decltype(auto) {
     using Arg = std::decay_t<std::tuple_element_t<K, std::tuple<Args...>>>;
-    if constexpr (kIsContext<Arg>)
+    if constexpr (K < kBefore)
+      return *static_cast<State*>(state);
+    else if constexpr (kIsContext<Arg>)
       return (context);
     else if constexpr (K + 1 == sizeof...(Args))
       return *static_cast<const Params*>(params);
     else
-      return StreamTraits<Arg>::unwrap(values[K]);
+      return StreamTraits<Arg>::unwrap(values[K - kBefore]);
   };
   if constexpr (std::is_void_v<R>) {
     function(argument(std::integral_constant<std::size_t, I>{})...);
-    return nullptr;
+    return {};
   } else {
-    return StreamTraits<R>::wrap(function(argument(std::integral_constant<std::size_t, I>{})...));
+    return Outputs<R>::wrap(function(argument(std::integral_constant<std::size_t, I>{})...));
   }
 }
 
 }  // namespace detail
 
-/// The fluent end of register_node.
-template <class Params>
+/// The fluent end of register_node and register_stateful_node.
+template <class Params, class State = void>
 class Registration {
  public:
   explicit Registration(NodeSpec& spec) : spec_(&spec) {}
@@ -107,17 +180,43 @@ class Registration {
       if (port.name.empty()) return port.name = std::move(name), *this;
     throw std::logic_error(spec_->name + ": more input names than inputs");
   }
-  /// Names the output port.
+  /// Names the next output port, in the order of the function's result.
   Registration& output(std::string name) {
-    if (!spec_->output) throw std::logic_error(spec_->name + ": names an output but returns void");
-    spec_->output->name = std::move(name);
+    for (Port& port : spec_->outputs)
+      if (port.name.empty()) return port.name = std::move(name), *this;
+    throw std::logic_error(spec_->name + ": more output names than outputs");
+  }
+  /// Runs when all other nodes of the frame are done, and knows what they took.
+  Registration& last() {
+    if (!spec_->outputs.empty())
+      throw std::logic_error(spec_->name + ": runs last, but others may wait for its output");
+    spec_->last = true;
     return *this;
   }
-  template <class T>
-  Registration& param(std::string name, T Params::*member, std::string unit, std::string doc,
+  /// Is told, in the frames' order, of each that failed before it came to this node.
+  template <class S = State>
+  Registration& on_failure(void (*hook)(S&, const Failure&, const FrameContext&, const Params&)) {
+    spec_->on_failure = [hook](void* state, const Failure& failure, const FrameContext& context,
+                               const void* params) {
+      hook(*static_cast<S*>(state), failure, context, *static_cast<const Params*>(params));
+    };
+    return *this;
+  }
+  /// `access`: a member pointer, or a function from Params& to a reference to what lies deeper.
+  template <class Access>
+  Registration& param(std::string name, Access access, std::string unit, std::string doc,
                       Constraint constraint = anything()) {
-    spec_->params.push_back(make_param(std::move(name), member, std::move(unit), std::move(doc),
-                                       std::move(constraint)));
+    spec_->params.push_back(make_param<Params>(std::move(name), std::move(access), std::move(unit),
+                                               std::move(doc), std::move(constraint)));
+    return *this;
+  }
+  /// A parameter that is listed apart, for those who know the method from within.
+  template <class Access>
+  Registration& expert_param(std::string name, Access access, std::string unit, std::string doc,
+                             Constraint constraint = anything()) {
+    param(std::move(name), std::move(access), std::move(unit), std::move(doc),
+          std::move(constraint));
+    spec_->params.back().expert = true;
     return *this;
   }
   /// A rule between parameters: `std::string rule(const Params&)` returns "" or what is wrong.
@@ -130,29 +229,54 @@ class Registration {
   NodeSpec* spec_;
 };
 
-/// Registers `R function(const In&..., [const FrameContext&,] const Params&)` as a node type.
-template <class R, class... Args>
-auto register_node(std::string name, R (*function)(Args...), std::string doc,
-                   const char* source = __builtin_FILE()) {
+namespace detail {
+
+template <class State, class R, class... Args>
+auto register_function(std::string name, R (*function)(Args...), std::string doc,
+                       const char* source) {
   using Params = std::decay_t<std::tuple_element_t<sizeof...(Args) - 1, std::tuple<Args...>>>;
   NodeSpec spec;
   spec.name = std::move(name);
   spec.doc = std::move(doc);
   spec.source = source;
   const auto add_input = [&spec]<class Arg>(std::type_identity<Arg>) {
-    if constexpr (!detail::kIsContext<Arg> && !std::is_same_v<Arg, Params>)
+    if constexpr (!kIsContext<Arg> && !std::is_same_v<Arg, Params> && !std::is_same_v<Arg, State>)
       spec.inputs.push_back({"", StreamTraits<Arg>::type()});
   };
   (add_input(std::type_identity<std::decay_t<Args>>{}), ...);
-  if constexpr (!std::is_void_v<R>) spec.output = Port{"", StreamTraits<R>::type()};
+  spec.outputs = Outputs<R>::ports();
   spec.make_params = [] { return std::make_shared<Params>(); };
   spec.check = [](const void*) { return std::string(); };
-  spec.call = [function](const std::vector<Value>& inputs, const FrameContext& context,
-                         const void* params) {
-    return detail::invoke<Params>(function, inputs, context, params,
-                                  std::index_sequence_for<Args...>{});
+  spec.function = [function](const std::vector<Value>& inputs, const FrameContext& context,
+                             const void* params, void* state) {
+    return invoke<State, Params>(function, inputs, context, params, state,
+                                 std::index_sequence_for<Args...>{});
   };
-  return Registration<Params>(add_node(std::move(spec)));
+  if constexpr (!std::is_void_v<State>)
+    spec.make_state = []([[maybe_unused]] const void* params) -> std::shared_ptr<void> {
+      if constexpr (std::is_constructible_v<State, const Params&>)
+        return std::make_shared<State>(*static_cast<const Params*>(params));
+      else
+        return std::make_shared<State>();
+    };
+  return Registration<Params, State>(add_node(std::move(spec)));
+}
+
+}  // namespace detail
+
+/// Registers `R function(const In&..., [const FrameContext&,] const Params&)` as a node type.
+template <class R, class... Args>
+auto register_node(std::string name, R (*function)(Args...), std::string doc,
+                   const char* source = __builtin_FILE()) {
+  return detail::register_function<void>(std::move(name), function, std::move(doc), source);
+}
+
+/// Registers `R function(State&, const In&..., [const FrameContext&,] const Params&)`. The state is
+/// made anew for each run, from the Params where it can be.
+template <class State, class R, class... Args>
+auto register_stateful_node(std::string name, R (*function)(State&, Args...), std::string doc,
+                            const char* source = __builtin_FILE()) {
+  return detail::register_function<State>(std::move(name), function, std::move(doc), source);
 }
 
 }  // namespace posevote::graph

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a plan over frames as a oneTBB flow graph.
+// Runs a pipeline whose ends have known types over frames.
 //
 // A frame travels as one shared state. Each edge of the plan is an edge of the flow graph; a node
 // runs when all the nodes that feed it have passed the frame on. Tokens bound the frames in flight.
@@ -7,65 +7,124 @@
 // (in plan order) that failed; nodes behind a failed one are skipped.
 #pragma once
 
-#include <atomic>
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "graph/plan.hpp"
-#include "graph/trace.hpp"
+#include "graph/flow.hpp"
 
 namespace posevote::graph {
 
-struct Failure {
-  std::string node;
-  std::string what;
-  /// Of a node that runs once for each object: which failed, from 0, and why, without its number.
-  std::optional<std::size_t> object = std::nullopt;
-  std::string cause{};
+/// A plan that was checked to take an In... with each frame and to give a Result:
+/// `Pipeline<Detections(SceneFile)>`.
+template <class Signature>
+struct Pipeline;
+
+template <class Result, class... In>
+struct Pipeline<Result(In...)> : Plan {
+  /// What make_plan is to hold it to.
+  static PlanEnds ends(std::string role, std::map<std::string, StreamType> constants = {}) {
+    return {std::move(role),
+            {StreamTraits<In>::type()...},
+            StreamTraits<Result>::type(),
+            std::move(constants)};
+  }
 };
 
-/// What enters: the context and one value for each of the plan's inputs, in the plan's order.
+/// make_plan for ends of known types; `role` and `constants` as in PlanEnds.
+template <class Signature>
+Pipeline<Signature> make_pipeline(const PipelineDescription& description, std::string role,
+                                  const std::map<std::string, StreamType>& constants,
+                                  std::vector<Problem>& problems) {
+  return {make_plan(description, Pipeline<Signature>::ends(std::move(role), constants), problems)};
+}
+
+/// What enters.
+template <class... In>
 struct Frame {
   FrameContext context;
-  std::vector<Value> inputs;
+  std::tuple<In...> inputs;
 };
 
 /// What leaves: either the result or a failure.
+template <class Result>
 struct FrameResult {
   FrameContext context;
-  Value result;
+  std::shared_ptr<const Result> result;  ///< null where the frame failed
   std::optional<Failure> failure;
   std::vector<Span> spans;  ///< per node of the plan, in its order
 };
 
-struct RunOptions {
-  std::size_t tokens = 0;        ///< frames in flight; 0: twice the threads
-  bool stop_on_failure = false;  ///< nothing after the first failed frame is reported
-  const std::atomic<bool>* interrupted = nullptr;  ///< no frame enters once it is true
-};
+/// Gives the frames one by one, then nothing. Called by one thread at a time.
+template <class... In>
+using Source = std::function<std::optional<Frame<In...>>()>;
 
-struct RunSummary {
-  std::size_t done = 0;    ///< frames that left with a result
-  std::size_t failed = 0;  ///< frames that left with a failure
-  bool stopped = false;    ///< by stop_on_failure or an interrupt, before all frames were reported
-};
+/// A source of `count` frames, make_frame(0) ... make_frame(count - 1).
+template <class MakeFrame>
+auto counted(std::size_t count, MakeFrame make_frame) {
+  return [count, make_frame = std::move(make_frame),
+          next = std::size_t(0)]() mutable -> std::optional<decltype(make_frame(count))> {
+    if (next == count) return std::nullopt;
+    return make_frame(next++);
+  };
+}
 
-/// Runs the nodes that depend on constants alone. Returns the given constants and theirs, by the
-/// name of the stream. Throws std::runtime_error "node: what" if one of them fails.
-std::map<std::string, Value> fold_constants(const Plan& plan,
-                                            std::map<std::string, Value> constants);
+/// A value that is the same for every frame.
+template <class T>
+Constant constant(std::shared_ptr<const T> value) {
+  return {StreamTraits<T>::type(), std::move(value)};
+}
 
-/// Runs frames 0 .. count-1 through the plan. `make_frame` is called in order, by one thread at a
-/// time. `on_result` receives the results in order, one at a time; what it throws ends the run and
-/// is rethrown. `constants`: a value for every constant stream, from fold_constants.
-RunSummary run(const Plan& plan, const std::map<std::string, Value>& constants, std::size_t count,
-               const std::function<Frame(std::size_t)>& make_frame, const RunOptions& options,
-               const std::function<void(const FrameResult&)>& on_result);
+namespace detail {
+
+template <class Result>
+FrameResult<Result> typed(UntypedResult&& raw) {
+  return {std::move(raw.context), raw.failure ? nullptr : StreamTraits<Result>::share(raw.result),
+          std::move(raw.failure), std::move(raw.spans)};
+}
+
+template <class... In>
+UntypedFrame untyped(Frame<In...>&& frame) {
+  return {
+      std::move(frame.context),
+      std::apply(
+          [](auto&&... in) { return std::vector<Value>{StreamTraits<In>::wrap(std::move(in))...}; },
+          std::move(frame.inputs))};
+}
+
+}  // namespace detail
+
+/// Runs the frames of `source` through the pipeline. `on_result` receives the results in order, one
+/// at a time. What either of them throws ends the run and is rethrown. `constants`: one for every
+/// constant stream, from fold_constants; std::invalid_argument where one is missing or of another
+/// type.
+template <class Result, class... In>
+RunSummary run(const Pipeline<Result(In...)>& pipeline, const Constants& constants,
+               std::type_identity_t<Source<In...>> source, const RunOptions& options,
+               const std::function<void(const FrameResult<Result>&)>& on_result) {
+  const auto next = [&source]() -> std::optional<detail::UntypedFrame> {
+    std::optional<Frame<In...>> frame = source();
+    if (!frame) return std::nullopt;
+    return detail::untyped(std::move(*frame));
+  };
+  return detail::run_flow(pipeline, constants, next, options,
+                          [&on_result](detail::UntypedResult&& raw) {
+                            on_result(detail::typed<Result>(std::move(raw)));
+                          });
+}
 
 /// Runs one frame on the calling thread's arena and returns its result.
-FrameResult run_one(const Plan& plan, const std::map<std::string, Value>& constants, Frame frame);
+template <class Result, class... In>
+FrameResult<Result> run_one(const Pipeline<Result(In...)>& pipeline, const Constants& constants,
+                            std::type_identity_t<Frame<In...>> frame) {
+  FrameResult<Result> only;
+  run(pipeline, constants, counted(1, [&frame](std::size_t) { return std::move(frame); }), {},
+      std::function([&only](const FrameResult<Result>& result) { only = result; }));
+  return only;
+}
 
 }  // namespace posevote::graph

@@ -16,6 +16,12 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
+}
+
 /// Whole-text number; a leading zero ("010") is refused because YAML readers disagree about it.
 template <class T>
 std::optional<T> parse_number(std::string_view text) {
@@ -94,6 +100,31 @@ std::optional<std::string> Constraint::violated_by(const std::string& value) con
   const std::string near = closest_name(value, choices);
   return "must be " + text() + (near.empty() ? "" : ", did you mean '" + near + "'?");
 }
+
+std::optional<std::string> violation(const Constraint& constraint, double value) {
+  return constraint.violated_by(value);
+}
+std::optional<std::string> violation(const Constraint& constraint, const std::string& value) {
+  return constraint.violated_by(value);
+}
+
+std::optional<std::vector<std::string>> split_list(std::string_view text) {
+  if (!text.starts_with('[') || !text.ends_with(']') || text.size() < 2) return std::nullopt;
+  text = trimmed(text.substr(1, text.size() - 2));
+  std::vector<std::string> items;
+  while (!text.empty()) {
+    const std::size_t comma = text.find(',');
+    const std::string_view item = trimmed(text.substr(0, comma));
+    if (item.empty()) return std::nullopt;
+    items.emplace_back(item);
+    if (comma == std::string_view::npos) break;
+    text = text.substr(comma + 1);
+    if (trimmed(text).empty()) return std::nullopt;
+  }
+  return items;
+}
+
+std::string join_list(const std::vector<std::string>& items) { return "[" + join(items) + "]"; }
 
 std::optional<bool> Scalar<bool>::parse(std::string_view text) {
   if (text == "true") return true;

@@ -35,7 +35,7 @@ Constraint one_of(std::vector<std::string> choices);
 /// One parameter of one node type. `set` and `get` work on a type-erased Params.
 struct ParamSpec {
   std::string name;
-  std::string type;  ///< "bool", "int", "number" or "string"
+  std::string type;  ///< Scalar<T>::name()
   std::string unit;  ///< "m", "rad", "deg", "x resolution", "" ...
   std::string doc;
   std::string default_text;
@@ -43,6 +43,8 @@ struct ParamSpec {
   /// Parses text into the member; nothing if it went well, else "must be ...".
   std::function<std::optional<std::string>(void* params, std::string_view text)> set;
   std::function<std::string(const void* params)> get;
+  bool is_list = false;
+  bool expert = false;  ///< for those who know the method from within; listed apart
 };
 
 /// Text to value and back, the same on every locale. `parse` is empty-handed where the text is not
@@ -52,59 +54,126 @@ struct Scalar;
 
 template <>
 struct Scalar<bool> {
-  static constexpr const char* kName = "bool";
+  static std::string name() { return "bool"; }
   static std::optional<bool> parse(std::string_view text);
   static std::string print(bool value);
 };
 template <>
 struct Scalar<int> {
-  static constexpr const char* kName = "int";
+  static std::string name() { return "int"; }
   static std::optional<int> parse(std::string_view text);
   static std::string print(int value);
 };
 template <>
 struct Scalar<double> {
-  static constexpr const char* kName = "number";
+  static std::string name() { return "number"; }
   static std::optional<double> parse(std::string_view text);
   static std::string print(double value);
 };
 template <>
 struct Scalar<std::string> {
-  static constexpr const char* kName = "string";
+  static std::string name() { return "string"; }
   static std::optional<std::string> parse(std::string_view text);
   static std::string print(const std::string& value);
 };
 
+/// The items of "[a, b]", trimmed; nothing if it is no list. Items hold no comma.
+std::optional<std::vector<std::string>> split_list(std::string_view text);
+/// "[a, b]"
+std::string join_list(const std::vector<std::string>& items);
+
+/// A list: `[1, 2]`.
+template <class T>
+struct Scalar<std::vector<T>> {
+  static std::string name() { return "list of " + Scalar<T>::name() + "s"; }
+  static std::optional<std::vector<T>> parse(std::string_view text) {
+    const auto items = split_list(text);
+    if (!items) return std::nullopt;
+    std::vector<T> values;
+    for (const std::string& item : *items) {
+      std::optional<T> value = Scalar<T>::parse(item);
+      if (!value) return std::nullopt;
+      values.push_back(std::move(*value));
+    }
+    return values;
+  }
+  static std::string print(const std::vector<T>& values) {
+    std::vector<std::string> items;
+    for (const T& value : values) items.push_back(Scalar<T>::print(value));
+    return join_list(items);
+  }
+};
+
+template <class T>
+constexpr bool kIsList = false;
+template <class T>
+constexpr bool kIsList<std::vector<T>> = true;
+template <class T>
+constexpr bool kIsList<std::optional<T>> = kIsList<T>;
+
+/// A value that may be left unset: `none`.
+template <class T>
+struct Scalar<std::optional<T>> {
+  static std::string name() { return Scalar<T>::name() + " or none"; }
+  static std::optional<std::optional<T>> parse(std::string_view text) {
+    if (text == "none") return std::make_optional<std::optional<T>>(std::nullopt);
+    std::optional<T> value = Scalar<T>::parse(text);
+    return value ? std::make_optional(std::move(value)) : std::nullopt;
+  }
+  static std::string print(const std::optional<T>& value) {
+    return value ? Scalar<T>::print(*value) : "none";
+  }
+};
+
+/// What the constraint expects, if the value, or one of a list, is not so.
+std::optional<std::string> violation(const Constraint& constraint, double value);
+std::optional<std::string> violation(const Constraint& constraint, const std::string& value);
+inline std::optional<std::string> violation(const Constraint&, bool) { return std::nullopt; }
+inline std::optional<std::string> violation(const Constraint& constraint, int value) {
+  return violation(constraint, static_cast<double>(value));
+}
+template <class T>
+std::optional<std::string> violation(const Constraint& constraint, const std::optional<T>& value) {
+  return value ? violation(constraint, *value) : std::nullopt;
+}
+template <class T>
+std::optional<std::string> violation(const Constraint& constraint, const std::vector<T>& values) {
+  for (const T& value : values)
+    if (auto expected = violation(constraint, value)) return expected;
+  return std::nullopt;
+}
+
 /// The closest of `known` to a misspelt `name`, or "" if none is close.
 std::string closest_name(const std::string& name, const std::vector<std::string>& known);
 
-/// Builds the ParamSpec of one member. T: bool, int, double or std::string.
-template <class Params, class T>
-ParamSpec make_param(std::string name, T Params::*member, std::string unit, std::string doc,
+/// Builds the ParamSpec of one value of a Params. `access` leads to it: a member pointer, or a
+/// function as `[](Params& p) -> double& { return p.terms.weight; }` for what lies deeper.
+template <class Params, class Access>
+ParamSpec make_param(std::string name, Access access, std::string unit, std::string doc,
                      Constraint constraint) {
+  using T = std::decay_t<std::invoke_result_t<Access, Params&>>;
+  Params defaults{};
   ParamSpec spec{std::move(name),
-                 Scalar<T>::kName,
+                 Scalar<T>::name(),
                  std::move(unit),
                  std::move(doc),
-                 Scalar<T>::print(Params{}.*member),
+                 Scalar<T>::print(std::invoke(access, defaults)),
                  constraint,
                  {},
                  {}};
-  spec.set = [member, constraint](void* params,
+  spec.set = [access, constraint](void* params,
                                   std::string_view text) -> std::optional<std::string> {
     const std::optional<T> value = Scalar<T>::parse(text);
-    if (!value) return std::string("expected ") + Scalar<T>::kName;
-    if constexpr (std::is_same_v<T, std::string>) {
-      if (auto expected = constraint.violated_by(*value)) return expected;
-    } else if constexpr (!std::is_same_v<T, bool>) {
-      if (auto expected = constraint.violated_by(static_cast<double>(*value))) return expected;
-    }
-    static_cast<Params*>(params)->*member = *value;
+    if (!value) return "expected " + Scalar<T>::name();
+    if (auto expected = violation(constraint, *value)) return expected;
+    std::invoke(access, *static_cast<Params*>(params)) = *value;
     return std::nullopt;
   };
-  spec.get = [member](const void* params) {
-    return Scalar<T>::print(static_cast<const Params*>(params)->*member);
+  spec.get = [access](const void* params) {
+    Params copy = *static_cast<const Params*>(params);  // `access` may ask for what it can change
+    return Scalar<T>::print(std::invoke(access, copy));
   };
+  spec.is_list = kIsList<T>;
   return spec;
 }
 

@@ -8,17 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "graph/span.hpp"
+
 namespace posevote::graph {
-
-/// One call of a node, in microseconds since the run began.
-struct Span {
-  double begin = 0;
-  double end = -1;  ///< before `begin`: the node did not run (an earlier one failed)
-  int thread = 0;
-
-  bool ran() const { return end >= begin; }
-  double seconds() const { return ran() ? (end - begin) * 1e-6 : 0; }
-};
 
 /// Totals of one node over a run. Seconds are wall time of the calls, so over several threads and
 /// frames they add up to more than the run took.

@@ -48,6 +48,9 @@ template <class T>
 struct StreamTraits {
   static StreamType type() { return {typeid(T), false, type_name(typeid(T))}; }
   static const T& unwrap(const Value& value) { return *static_cast<const T*>(value.get()); }
+  static std::shared_ptr<const T> share(const Value& value) {
+    return std::static_pointer_cast<const T>(value);
+  }
   static Value wrap(T&& value) { return std::make_shared<const T>(std::move(value)); }
 };
 
@@ -59,6 +62,9 @@ struct StreamTraits<PerObject<T>> {
     for (const Value& slot : *static_cast<const Slots*>(value.get()))
       objects.slots.push_back(std::static_pointer_cast<const T>(slot));
     return objects;
+  }
+  static std::shared_ptr<const PerObject<T>> share(const Value& value) {
+    return value ? std::make_shared<const PerObject<T>>(unwrap(value)) : nullptr;
   }
   static Value wrap(PerObject<T>&& objects) {
     return std::make_shared<const Slots>(objects.slots.begin(), objects.slots.end());

@@ -3,12 +3,19 @@
 // what could be read is returned all the same, so that one run reports everything.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "graph/description.hpp"
 
 namespace posevote::graph {
+
+/// The file of the pipeline called `name` where another file, `from`, names it; "" if there is
+/// none.
+using FindPipeline = std::function<std::string(const std::string& name, const std::string& from)>;
+/// NAME.yaml in the folder of `from`.
+std::string beside(const std::string& name, const std::string& from);
 
 /// Reads `pipelines/NAME.yaml`:
 ///
@@ -19,12 +26,28 @@ namespace posevote::graph {
 ///     load_scene: {in: scene_file, out: scan, unit: mm}
 ///     downsample_scene: {node: downsample_voxels, in: [scan, scale], out: cloud}
 ///     describe_scene: {like: describe_models, in: {cloud: cloud, points: points}, out: features}
-PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>& problems);
+///
+/// or a variant of another one, which says only what differs, and may have `models`, `inputs` and
+/// `result` of its own:
+///
+///   extends: recognize
+///   remove: [estimate_density]
+///   replace:                        # the node of that name; `name`: what it is called here
+///     cast_votes: {name: ransac, in: [correspondences, scene_features, scale], out: hypotheses}
+///   insert:                         # `after` or `before` a node; else at the end
+///     smooth: {after: load_scene, in: scan, out: smooth_scan}
+///
+/// What it returns has no `extends` any more; each node says in which file it stands.
+PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>& problems,
+                                  const FindPipeline& find = beside);
+
+/// The pipeline as one file without `extends`.
+std::string to_yaml(const PipelineDescription& pipeline);
 
 /// Reads `configs/NAME.yaml`: `pipeline: NAME` and, per node, the parameters that differ.
 ConfigDescription read_config(const std::string& file, std::vector<Problem>& problems);
 
-/// True where the file describes a pipeline itself (it has `nodes`), not a config.
+/// True where the file describes a pipeline itself (it has `nodes` or `extends`), not a config.
 bool is_pipeline(const std::string& file);
 
 /// Reads `--set node.param=value`.

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "graph/registry.hpp"
+
 namespace posevote {
 
 /// Options of `run`, named as on the command line.
@@ -51,10 +53,14 @@ struct EvaluateCommand {
 };
 int evaluate_command(const EvaluateCommand& command);
 
-int check_command(const std::string& config, const std::vector<std::string>& set);
+/// `flat`: prints the pipeline with what it extends as one file.
+int check_command(const std::string& config, const std::vector<std::string>& set, bool flat);
 int nodes_command(const std::string& name);
 int graph_command(const std::string& config, const std::vector<std::string>& set);
 int docs_command(const std::string& file);
+
+/// A line that can be pasted into a pipeline, with every parameter but experts' at its default.
+std::string example(const graph::NodeSpec& spec);
 
 /// The text of nodes/README.md: every node type with ports, parameters and an example.
 std::string node_reference();

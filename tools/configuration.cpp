@@ -4,9 +4,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
-#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "graph/yaml_reader.hpp"
 
@@ -47,7 +47,7 @@ std::string lasting_name(const PipelineDescription& pipeline) {
 PipelineDescription read_named(const std::string& name, const graph::Location& where,
                                const std::string& config, std::vector<Problem>& problems) {
   const std::string file = find_pipeline(name, config);
-  if (!file.empty()) return graph::read_pipeline(file, problems);
+  if (!file.empty()) return graph::read_pipeline(file, problems, find_pipeline);
   problems.push_back({where, "",
                       "no pipeline is called '" + name + "', expected " + name +
                           ".yaml beside the config or in pipelines/"});
@@ -65,18 +65,15 @@ void apply(PipelineDescription& scenes, PipelineDescription& models,
            const std::vector<Override>& overrides, std::vector<Problem>& problems) {
   const std::vector<Override> left =
       graph::apply_overrides(models, graph::apply_overrides(scenes, overrides));
-  if (scenes.nodes.empty()) return;  // the pipeline itself could not be read
+  if (scenes.nodes.empty() && models.nodes.empty()) return;  // the pipeline could not be read
   for (const Override& change : left) {
     if (change.node.empty()) continue;  // a malformed --set, reported
     const std::string near = graph::closest_name(change.node, node_names(scenes, models));
     problems.push_back({change.setting.where, change.node + "." + change.key,
-                        "no such node in the pipeline '" + scenes.name + "'" +
+                        "no such node in the pipeline '" +
+                            (scenes.nodes.empty() ? models : scenes).name + "'" +
                             (near.empty() ? "" : ", did you mean '" + near + "'?")});
   }
-}
-
-graph::StreamType result_type(const graph::Plan& plan) {
-  return plan.result < 0 ? graph::StreamType{} : plan.streams[std::size_t(plan.result)].type;
 }
 
 void emit_parameters(YAML::Emitter& out, const graph::Plan& plan) {
@@ -92,50 +89,70 @@ void emit_parameters(YAML::Emitter& out, const graph::Plan& plan) {
   }
 }
 
+/// The pipeline that a config names, or that the file is; a config's values go to `overrides`.
+PipelineDescription read_wiring(const std::string& config, const std::string& pipeline,
+                                std::vector<Override>& overrides, std::vector<Problem>& problems) {
+  const std::string file = find_config(config);
+  if (graph::is_pipeline(file)) {
+    if (!pipeline.empty())
+      throw std::invalid_argument("--pipeline " + pipeline + ": " + file +
+                                  " is a pipeline itself, expected a config");
+    return graph::read_pipeline(file, problems, find_pipeline);
+  }
+  graph::ConfigDescription description = graph::read_config(file, problems);
+  if (!pipeline.empty()) {
+    description.pipeline = pipeline;
+    description.where = {"--pipeline", 0, 0};
+  }
+  overrides.insert(overrides.end(), description.overrides.begin(), description.overrides.end());
+  if (description.pipeline.empty()) return {};
+  return read_named(description.pipeline, description.where, file, problems);
+}
+
+void plan(const PipelineDescription& scenes, const PipelineDescription& models,
+          Configuration& configuration, std::vector<Problem>& problems) {
+  if (!models.nodes.empty())
+    configuration.models = graph::make_pipeline<ModelLibrary(ModelFiles)>(
+        models, "a pipeline for models", {}, problems);
+  if (!scenes.nodes.empty())
+    configuration.scenes = graph::make_pipeline<Detections(SceneFile)>(
+        scenes, "a pipeline for scans",
+        {{models.result.stream, graph::StreamTraits<ModelLibrary>::type()}}, problems);
+}
+
 }  // namespace
 
 Configuration load_configuration(const std::string& config, const std::vector<std::string>& sets,
                                  const std::vector<Override>& defaults,
                                  const std::string& pipeline) {
   std::vector<Problem> problems;
-  const std::string file = find_config(config);
   Configuration result;
-  result.name = fs::path(file).stem().string();
-  PipelineDescription scenes;
   std::vector<Override> overrides = defaults;
-  if (graph::is_pipeline(file)) {
-    if (!pipeline.empty())
-      throw std::invalid_argument("--pipeline " + pipeline + ": " + file +
-                                  " is a pipeline itself, expected a config");
-    scenes = graph::read_pipeline(file, problems);
-  } else {
-    graph::ConfigDescription description = graph::read_config(file, problems);
-    if (!pipeline.empty()) {
-      description.pipeline = pipeline;
-      description.where = {"--pipeline", 0, 0};
-    }
-    if (!description.pipeline.empty())
-      scenes = read_named(description.pipeline, description.where, file, problems);
-    overrides.insert(overrides.end(), description.overrides.begin(), description.overrides.end());
-  }
+  PipelineDescription scenes = read_wiring(config, pipeline, overrides, problems);
   for (const std::string& set : sets) overrides.push_back(graph::read_set(set, problems));
+  result.name = fs::path(find_config(config)).stem().string();
+  result.pipeline = lasting_name(scenes);
+  result.wiring = scenes;
 
   PipelineDescription models;
-  if (!scenes.models.empty())
-    models = read_named(scenes.models, scenes.models_where, scenes.where.file, problems);
+  if (scenes.models.empty())
+    std::swap(scenes, models);
+  else
+    models = read_named(scenes.models, scenes.models_where, scenes.models_where.file, problems);
   apply(scenes, models, overrides, problems);
   graph::resolve_likes(models, nullptr, problems);
   graph::resolve_likes(scenes, &models, problems);
-
-  result.pipeline = lasting_name(scenes);
-  std::map<std::string, graph::StreamType> constants;
-  if (!models.nodes.empty()) {
-    result.models = graph::make_plan(models, {}, problems);
-    constants[models.result.stream] = result_type(result.models);
-  }
-  if (!scenes.nodes.empty()) result.scenes = graph::make_plan(scenes, constants, problems);
+  plan(scenes, models, result, problems);
   if (!problems.empty()) throw graph::ConfigError(std::move(problems));
   return result;
+}
+
+graph::Constants constants_of(const Configuration& configuration,
+                              const std::shared_ptr<const ModelLibrary>& library) {
+  const graph::Plan& models = configuration.models;
+  return graph::fold_constants(
+      configuration.scenes,
+      {{models.streams[std::size_t(models.result)].name, graph::constant(library)}});
 }
 
 std::string effective_yaml(const Configuration& configuration) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that look and do not run: check, nodes, graph, docs.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -7,6 +8,7 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
+#include "graph/yaml_reader.hpp"
 #include "tools/commands.hpp"
 #include "tools/configuration.hpp"
 #include "tools/write_text.hpp"
@@ -18,6 +20,10 @@ using graph::NodeSpec;
 using graph::ParamSpec;
 using graph::Port;
 
+/// Folders of nodes in the order of the reference; others come after them.
+const std::vector<std::string> kWayOfTheData{"load",    "prepare",  "describe", "match", "vote",
+                                             "segment", "baseline", "train",    "write"};
+
 /// "prepare" for nodes/prepare/downsample_voxels.cpp.
 std::string folder_of(const NodeSpec& spec) {
   return std::filesystem::path(spec.source).parent_path().filename().string();
@@ -28,51 +34,89 @@ std::string ports(const NodeSpec& spec) {
   for (const Port& port : spec.inputs)
     text += (text.empty() ? "" : ", ") + port.name + ": " + port.type.name;
   text = "(" + text + ")";
-  if (spec.output) text += " -> " + spec.output->name + ": " + spec.output->type.name;
+  for (const Port& port : spec.outputs)
+    text += (&port == &spec.outputs[0] ? " -> " : ", ") + port.name + ": " + port.type.name;
   return text;
 }
 
-/// A line that can be pasted into a pipeline, with every parameter at its default.
-std::string example(const NodeSpec& spec) {
-  std::string in;
-  for (const Port& port : spec.inputs) in += (in.empty() ? "" : ", ") + port.name;
-  std::string text = spec.name + ": {in: [" + in + "]";
-  if (spec.output) text += ", out: " + spec.output->name;
-  for (const ParamSpec& param : spec.params)
-    text += ", " + param.name + ": " + (param.default_text.empty() ? "''" : param.default_text);
-  return text + "}";
+/// Those for experts, or the others; in the order of their registration.
+std::vector<ParamSpec> parameters(const NodeSpec& spec, bool expert) {
+  std::vector<ParamSpec> chosen = spec.params;
+  std::erase_if(chosen, [expert](const ParamSpec& param) { return param.expert != expert; });
+  return chosen;
 }
+
+/// "name", or "[a, b]" for more than one.
+std::string streams(const std::vector<std::string>& names) {
+  return names.size() == 1 ? names[0] : graph::join_list(names);
+}
+
+std::string quoted_if_empty(const std::string& text) { return text.empty() ? "''" : text; }
 
 std::string range(const ParamSpec& param) {
   return param.constraint.text().empty() ? "any" : param.constraint.text();
 }
 
-void print_node(const NodeSpec& spec) {
-  std::cout << spec.name << ' ' << ports(spec) << "\n  " << spec.doc << "\n\n";
-  for (const ParamSpec& param : spec.params)
+void print_parameters(const std::vector<ParamSpec>& params) {
+  for (const ParamSpec& param : params)
     std::cout << "  " << param.name << ": " << param.type << " = "
-              << (param.default_text.empty() ? "''" : param.default_text)
+              << quoted_if_empty(param.default_text)
               << (param.unit.empty() ? "" : " [" + param.unit + "]") << ", " << range(param)
               << "\n      " << param.doc << "\n";
-  std::cout << (spec.params.empty() ? "" : "\n") << "  " << example(spec) << "\n";
+  if (!params.empty()) std::cout << "\n";
+}
+
+void print_node(const NodeSpec& spec) {
+  std::cout << spec.name << ' ' << ports(spec) << "\n  " << spec.doc << "\n\n";
+  print_parameters(parameters(spec, false));
+  const std::vector<ParamSpec> expert = parameters(spec, true);
+  if (!expert.empty()) std::cout << "  For experts:\n\n";
+  print_parameters(expert);
+  std::cout << "  " << example(spec) << "\n";
+}
+
+std::string table(const std::vector<ParamSpec>& params) {
+  if (params.empty()) return "";
+  std::string text = "| parameter | type | default | unit | range | |\n|---|---|---|---|---|---|\n";
+  for (const ParamSpec& param : params)
+    text += "| `" + param.name + "` | " + param.type + " | " + param.default_text + " | " +
+            param.unit + " | " + range(param) + " | " + param.doc + " |\n";
+  return text + "\n";
 }
 
 /// The reference's section of one node.
 std::string section(const NodeSpec& spec) {
-  std::string text = "### " + spec.name + "\n\n" + spec.doc + "\n\n`" + ports(spec) + "`\n\n";
-  if (!spec.params.empty())
-    text += "| parameter | type | default | unit | range | |\n|---|---|---|---|---|---|\n";
-  for (const ParamSpec& param : spec.params)
-    text += "| `" + param.name + "` | " + param.type + " | " + param.default_text + " | " +
-            param.unit + " | " + range(param) + " | " + param.doc + " |\n";
-  return text + (spec.params.empty() ? "" : "\n") + "```yaml\n" + example(spec) + "\n```\n\n";
+  const std::vector<ParamSpec> expert = parameters(spec, true);
+  return "### " + spec.name + "\n\n" + spec.doc + "\n\n`" + ports(spec) + "`\n\n" +
+         table(parameters(spec, false)) + (expert.empty() ? "" : "For experts:\n\n") +
+         table(expert) + "```yaml\n" + example(spec) + "\n```\n\n";
 }
 
 }  // namespace
 
-int check_command(const std::string& config, const std::vector<std::string>& set) {
+std::string example(const NodeSpec& spec) {
+  std::vector<std::string> in, out;
+  for (const Port& port : spec.inputs) in.push_back(port.name);
+  for (const Port& port : spec.outputs) {
+    const bool is_taken = std::find(in.begin(), in.end(), port.name) != in.end();
+    out.push_back((is_taken ? "new_" : "") + port.name);
+  }
+  std::string text = spec.name + ": {in: " + streams(in);
+  if (!out.empty()) text += ", out: " + streams(out);
+  for (const ParamSpec& param : parameters(spec, false))
+    text += ", " + param.name + ": " + quoted_if_empty(param.default_text);
+  return text + "}";
+}
+
+int check_command(const std::string& config, const std::vector<std::string>& set, bool flat) {
   const Configuration configuration = load_configuration(config, set);
-  std::cout << config << ": fine, " << configuration.scenes.nodes.size() << " nodes a scan and "
+  if (flat) {
+    std::cout << graph::to_yaml(configuration.wiring);
+    return 0;
+  }
+  const std::size_t scenes = configuration.scenes.nodes.size();
+  std::cout << config << ": fine, "
+            << (scenes > 0 ? std::to_string(scenes) + " nodes a scan and " : "")
             << configuration.models.nodes.size() << " nodes for the models\n";
   return 0;
 }
@@ -103,9 +147,10 @@ std::string node_reference() {
   std::string text =
       "# Nodes\n\nMade by `posevote docs` from the registry; do not edit. Lengths in metres; "
       "\"x resolution\" means\nmultiples of the run's voxel edge (`derive_scale`).\n\n";
-  for (const char* folder :
-       {"load", "prepare", "describe", "match", "vote", "segment", "baseline", "write"})
-    if (folders.contains(folder)) text += "## " + std::string(folder) + "\n\n" + folders[folder];
+  for (const std::string& folder : kWayOfTheData)
+    if (folders.contains(folder))
+      text += "## " + folder + "\n\n" + folders.extract(folder).mapped();
+  for (const auto& [folder, sections] : folders) text += "## " + folder + "\n\n" + sections;
   text.pop_back();
   return text;
 }

@@ -38,11 +38,9 @@ std::string message(const graph::Failure& failure, const ModelFiles& models) {
 
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
                                           const ModelFiles& models) {
-  graph::Frame frame;
-  frame.inputs = {std::make_shared<const ModelFiles>(models)};
-  const graph::FrameResult result = graph::run_one(configuration.models, {}, std::move(frame));
+  const auto result = graph::run_one(configuration.models, {}, {{}, {models}});
   if (result.failure) throw std::runtime_error(message(*result.failure, models));
-  return std::static_pointer_cast<const ModelLibrary>(result.result);
+  return result.result;
 }
 
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,

@@ -144,6 +144,7 @@ struct Options {
   ReportCommand report;
   std::string config, node, docs_file;
   std::vector<std::string> set;
+  bool flat = false;
 };
 
 void add_train(CLI::App& app, TrainCommand& train) {
@@ -280,6 +281,7 @@ void add_inspection(CLI::App& app, Options& options) {
     command->add_option("config", options.config, "A file, or a name from configs/")->required();
     add_set(command, options.set);
   }
+  check->add_flag("--flat", options.flat, "Print the pipeline, with what it extends, as one file");
   CLI::App* nodes = app.add_subcommand("nodes", "List the node types, or explain one");
   nodes->add_option("name", options.node, "Node type");
   CLI::App* docs = app.add_subcommand("docs", "Write the reference of all nodes");
@@ -301,7 +303,7 @@ int dispatch(const CLI::App& app, const Options& options) {
   if (app.got_subcommand("evaluate"))
     return with_threads(0, [&] { return evaluate_command(options.evaluate); });
   if (app.got_subcommand("report")) return report_command(options.report);
-  if (app.got_subcommand("check")) return check_command(options.config, options.set);
+  if (app.got_subcommand("check")) return check_command(options.config, options.set, options.flat);
   if (app.got_subcommand("graph")) return graph_command(options.config, options.set);
   if (app.got_subcommand("nodes")) return nodes_command(options.node);
   return docs_command(options.docs_file);

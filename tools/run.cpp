@@ -119,13 +119,12 @@ class Reporter {
 
   std::size_t count() const { return scenes_.size(); }
 
-  graph::Frame make_frame(std::size_t i) const {
+  graph::Frame<SceneFile> make_frame(std::size_t i) const {
     const SceneEntry& scene = scenes_[i];
-    return {{scene.number, scene.name, fs::path(command_.out), command_.seed},
-            {std::make_shared<const SceneFile>(scene.file)}};
+    return {{scene.number, scene.name, fs::path(command_.out), command_.seed}, {scene.file}};
   }
 
-  void report(const graph::FrameResult& result) {
+  void report(const graph::FrameResult<Detections>& result) {
     const SceneEntry& scene = scenes_[reported_++];
     trace_.add(scene.name, result.spans);
     if (result.failure) {
@@ -134,10 +133,9 @@ class Reporter {
                     result.failure->what);
       return;
     }
-    const auto& detections = *static_cast<const Detections*>(result.result.get());
-    const write::FrameReport frame = frame_report(scene, result.spans);
-    writer_.write(frame, detections, nodes_json(trace_.times()));
-    if (!command_.quiet) say(frame, detections);
+    const FrameReport frame = frame_report(scene, result.spans);
+    writer_.write(frame, *result.result, nodes_json(trace_.times()));
+    if (!command_.quiet) say(frame, *result.result);
   }
 
   void finish() {
@@ -195,7 +193,7 @@ int exit_status(const graph::RunSummary& summary, bool interrupted) {
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
   const Configuration configuration =
       load_configuration(command.config, command.set, dataset_defaults(command), command.pipeline);
-  if (configuration.models.nodes.empty())
+  if (configuration.scenes.nodes.empty())
     throw std::invalid_argument(command.config +
                                 ": its pipeline has no `models`; expected one that "
                                 "finds them in scans, as pipelines/recognize.yaml");
@@ -205,9 +203,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   if (!library->index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
 
-  const std::string constant =
-      configuration.models.streams[std::size_t(configuration.models.result)].name;
-  const auto constants = graph::fold_constants(configuration.scenes, {{constant, library}});
+  const graph::Constants constants = constants_of(configuration, library);
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
   if (command.resume) check_same_run(effective, description);
@@ -217,10 +213,12 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   if (!command.resume || !fs::exists(effective))
     as_arguments([&] { write_text(effective, description); });
   const graph::RunOptions options{command.tokens, command.on_error == "stop", &interrupted};
-  const graph::RunSummary summary = graph::run(
-      configuration.scenes, constants, reporter.count(),
-      [&reporter](std::size_t i) { return reporter.make_frame(i); }, options,
-      [&reporter](const graph::FrameResult& result) { reporter.report(result); });
+  const auto make_frame = [&reporter](std::size_t i) { return reporter.make_frame(i); };
+  const graph::RunSummary summary =
+      graph::run(configuration.scenes, constants, graph::counted(reporter.count(), make_frame),
+                 options, std::function([&reporter](const graph::FrameResult<Detections>& result) {
+                   reporter.report(result);
+                 }));
   reporter.finish();
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
               command.out.c_str());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
-#include <stdexcept>
 
 #include "nodes/library/library_file.hpp"
 #include "tools/commands.hpp"
@@ -11,8 +10,6 @@ namespace posevote {
 
 int train_command(const TrainCommand& command) {
   const Configuration configuration = load_configuration(command.config, command.set);
-  if (configuration.models.nodes.empty())
-    throw std::invalid_argument(command.config + ": its pipeline has no `models` to train");
   const auto library = train(configuration, list_models(command.models));
   library::save_library(*library, command.out, library_key(configuration));
   for (const auto& model : library->models)

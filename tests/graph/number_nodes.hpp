@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 #include "graph/plan.hpp"
 #include "graph/runner.hpp"
@@ -21,25 +22,40 @@ struct Text {
 
 /// Most bodies of `wait_a_little` that ever ran at one time since it was last set to 0.
 extern std::atomic<int> peak_bodies;
+/// What `keep_log` has seen: "VALUE after NODE NODE ..." or "NODE: WHAT".
+extern std::vector<std::string> logged;
 /// Times `swallow` was called.
 extern std::atomic<int> swallowed;
 
-/// Reads and plans a pipeline; what is wrong lands in `problems`.
-graph::Plan plan_of(const std::string& yaml, std::vector<graph::Problem>& problems,
-                    const std::map<std::string, graph::StreamType>& constants = {});
+using NumberPipeline = graph::Pipeline<Number(Number)>;
+using NumberResult = graph::FrameResult<Number>;
+
+/// Reads a pipeline and plans it for the ends that Signature names; what is wrong lands in
+/// `problems`.
+template <class Signature = Number(Number)>
+graph::Pipeline<Signature> plan_of(const std::string& yaml, std::vector<graph::Problem>& problems,
+                                   const std::map<std::string, graph::StreamType>& constants = {}) {
+  const TemporaryFolder folder;
+  graph::PipelineDescription pipeline =
+      graph::read_pipeline(folder.write("test.yaml", yaml), problems);
+  graph::resolve_likes(pipeline, nullptr, problems);
+  auto plan =
+      graph::make_pipeline<Signature>(pipeline, "a pipeline of the tests", constants, problems);
+  for (graph::Problem& problem : problems) problem.where.file = "test.yaml";
+  return plan;
+}
 /// The same for a pipeline that must be fine.
-graph::Plan plan_of(const std::string& yaml,
-                    const std::map<std::string, graph::StreamType>& constants = {});
+NumberPipeline plan_of(const std::string& yaml,
+                       const std::map<std::string, graph::StreamType>& constants = {});
 
 /// Runs frames with the values 0 .. count-1.
-graph::RunSummary run_numbers(const graph::Plan& plan, std::size_t count,
+graph::RunSummary run_numbers(const NumberPipeline& plan, std::size_t count,
                               const graph::RunOptions& options,
-                              const std::function<void(const graph::FrameResult&)>& on_result,
-                              const std::map<std::string, graph::Value>& constants = {});
+                              const std::function<void(const NumberResult&)>& on_result,
+                              const graph::Constants& constants = {});
 
-inline graph::Value number(int value) { return std::make_shared<const Number>(Number{value}); }
-inline int value_of(const graph::Value& value) {
-  return static_cast<const Number*>(value.get())->value;
+inline graph::Constant number(int value) {
+  return graph::constant(std::make_shared<const Number>(Number{value}));
 }
 
 }  // namespace posevote::test

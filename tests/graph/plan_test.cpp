@@ -11,17 +11,19 @@ using namespace posevote::test;
 namespace {
 
 /// The problems of a pipeline, one "file:line:column: subject: text" a line.
+template <class Signature = Number(Number)>
 std::vector<std::string> problems_of(const std::string& yaml) {
   std::vector<graph::Problem> problems;
-  plan_of(yaml, problems);
+  plan_of<Signature>(yaml, problems);
   std::vector<std::string> lines;
   for (const graph::Problem& problem : problems) lines.push_back(to_string(problem));
   return lines;
 }
 
 /// Exactly one problem, which begins with `begin` and contains `part`.
+template <class Signature = Number(Number)>
 void check_one(const std::string& yaml, const std::string& begin, const std::string& part) {
-  const std::vector<std::string> lines = problems_of(yaml);
+  const std::vector<std::string> lines = problems_of<Signature>(yaml);
   for (const std::string& line : lines) UNSCOPED_INFO(line);
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].rfind(begin, 0) == 0);
@@ -83,6 +85,30 @@ TEST_CASE("one problem at a time", "[plan]") {
             "test.yaml:5:", "not valid YAML");
 }
 
+TEST_CASE("the types of both ends are checked where they are named", "[plan]") {
+  check_one(kHead + "  to_text: {in: n, out: r}\n", "test.yaml:2:9: result: ",
+            "'r' is test::Text, expected test::Number, which a pipeline of the tests gives");
+  check_one<Number(Text)>(kHead + "  multiply: {in: n, out: r}\n", "test.yaml:1:10: n: ",
+                          "comes as test::Text with each frame of a pipeline of the tests, but "
+                          "multiply.in expects test::Number");
+  check_one("inputs: [n, m]\nresult: r\nnodes:\n  add: {in: [n, m], out: r}\n",
+            "test.yaml:1:9: inputs: ",
+            "2 streams, but each frame of a pipeline of the tests brings 1: test::Number");
+  check_one<PerObject<Number>(Number)>(
+      kHead + "  multiply: {in: n, out: r}\n",
+      "test.yaml:2:9: result: ", "expected PerObject<test::Number>");
+  CHECK(problems_of<Text(Number)>(kHead + "  to_text: {in: n, out: r}\n").empty());
+}
+
+TEST_CASE("a constant of another type is reported at the node that reads it", "[plan]") {
+  std::vector<graph::Problem> problems;
+  plan_of<Number(Number)>(kHead + "  add: {in: [n, c], out: r}\n", problems,
+                          {{"c", graph::StreamTraits<Text>::type()}});
+  REQUIRE(problems.size() == 1);
+  CHECK(to_string(problems[0]) ==
+        "test.yaml:4:3: add.b: expected test::Number, but the run produces 'c' as test::Text");
+}
+
 TEST_CASE("eight mistakes give eight located messages", "[plan]") {
   const std::vector<std::string> lines = problems_of(
       kHead +
@@ -138,4 +164,90 @@ TEST_CASE("the wiring as DOT names every node and stream", "[plan]") {
   const std::string dot = graph::to_dot({&plan});
   for (const char* part : {"\"n\" -> \"test/double\"", "\"test/double\" -> \"r\"", "(multiply)"})
     CHECK(dot.find(part) != std::string::npos);
+}
+
+TEST_CASE("a parameter may lie deeper in its Params, and be marked for experts", "[schema]") {
+  const graph::Plan plan = plan_of(kHead + "  multiply: {in: n, out: r, offset: 7}\n");
+  CHECK(graph::effective_parameters(plan)["multiply"] ==
+        std::map<std::string, std::string>{{"factor", "2"}, {"offset", "7"}});
+  const std::vector<graph::ParamSpec>& params = plan.nodes[0].spec->params;
+  CHECK_FALSE(params[0].expert);
+  CHECK(params[1].expert);
+  check_one(kHead + "  multiply: {in: n, out: r, offset: -1}\n",
+            "test.yaml:4:37: multiply.offset: ", "must be >= 0");
+}
+
+TEST_CASE("lists and what may be unset", "[schema]") {
+  const std::string head = "inputs: [n]\nresult: r\nnodes:\n  count_letters: {in: t, out: r}\n";
+  const auto set = [](const std::string& values) {
+    return graph::effective_parameters(
+        plan_of("inputs: [n]\nresult: r\nnodes:\n  weigh: {in: n, out: t" + values +
+                "}\n  count_letters: {in: t, out: r}\n"))["weigh"];
+  };
+  using Values = std::map<std::string, std::string>;
+  CHECK(set("") ==
+        Values{{"weights", "[1, 2]"}, {"words", "[]"}, {"least", "none"}, {"most", "none"}});
+  CHECK(set(", weights: [3,  4 ,5], words: [a, b], least: 0.5, most: none") ==
+        Values{{"weights", "[3, 4, 5]"}, {"words", "[a, b]"}, {"least", "0.5"}, {"most", "none"}});
+  CHECK(set(", weights: '[7]', words: []")["weights"] == "[7]");  // as --set gives it
+  const std::string wrong = head + "  weigh: {in: n, out: t, ";
+  check_one(wrong + "weights: 3}\n",
+            "test.yaml:5:35: weigh.weights: ", "'3' is not allowed, expected list of ints");
+  check_one(wrong + "weights: [1, x]}\n",
+            "test.yaml:5:35: weigh.weights: ", "expected list of ints");
+  check_one(wrong + "weights: [1, -1]}\n", "test.yaml:5:35: weigh.weights: ", "must be >= 0");
+  check_one(wrong + "words: [a, c]}\n", "test.yaml:5:33: weigh.words: ", "must be one of a, b");
+  check_one(wrong + "words: ['a,b']}\n", "test.yaml:5:34: weigh.words: ", "holds no comma");
+  check_one(wrong + "least: [1]}\n", "test.yaml:5:33: weigh.least: ", "expected number or none");
+  check_one(wrong + "least: -1}\n", "test.yaml:5:33: weigh.least: ", "must be >= 0");
+  for (const char* text : {"1, 2", "[1, 2", "[1,,2]", "[1,]"})
+    CHECK_FALSE(graph::Scalar<std::vector<int>>::parse(text));
+}
+
+TEST_CASE("a broken rule between parameters is laid to the value that broke it", "[plan]") {
+  const auto blamed = [](const std::string& in_pipeline, const std::vector<graph::Override>& sets) {
+    const TemporaryFolder folder;
+    std::vector<graph::Problem> problems;
+    graph::PipelineDescription pipeline = graph::read_pipeline(
+        folder.write("p.yaml", "inputs: [n]\nresult: t\nnodes:\n  weigh: {in: n, out: t" +
+                                   in_pipeline + "}\n"),
+        problems);
+    graph::apply_overrides(pipeline, sets);
+    graph::make_pipeline<Text(Number)>(pipeline, "a test", {}, problems);
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].text == "`least` must not be above `most`");
+    problems[0].where.file = std::filesystem::path(problems[0].where.file).filename();
+    return to_string(problems[0].where);
+  };
+  std::vector<graph::Problem> none;
+  const auto least = graph::read_set("weigh.least=5", none);
+  const auto most = graph::read_set("weigh.most=1", none);
+  CHECK(blamed(", least: 5, most: 1", {}) == "p.yaml:4:42");
+  CHECK(blamed(", least: 1, most: 3", {least}) == "--set weigh.least=5");
+  CHECK(blamed("", {least, most}) == "--set weigh.most=1");
+  CHECK(blamed("", {most, least}) == "--set weigh.least=5");
+  CHECK(blamed(", least: 3, most: 2", {most}) == "--set weigh.most=1");
+}
+
+TEST_CASE("a node may have several outputs, by name or in order", "[plan]") {
+  const std::string tail = "  count_letters: {in: t, out: l}\n  add: {in: [s, l], out: r}\n";
+  for (const std::string out : {"[s, t]", "{large: t, small: s}"})
+    CHECK(problems_of(kHead + "  halve: {in: n, out: " + out + "}\n" + tail).empty());
+  CHECK(
+      problems_of(kHead + "  halve: {in: n, out: {small: r}}\n").empty());  // nobody wants `large`
+  check_one(kHead +
+                "  halve: {in: n, out: [r, t, u]}\n  count_letters: {in: t, out: l}\n"
+                "  add: {in: [u, l], out: v}\n  swallow: {in: v}\n",
+            "test.yaml:4:30: halve: ", "has 2 outputs, 'u' is one more");
+  check_one(kHead +
+                "  halve: {in: n, out: {small: r, larg: t}}\n  count_letters: {in: t, out: l}\n"
+                "  swallow: {in: l}\n",
+            "test.yaml:4:40: halve: ", "has no output 'larg', did you mean 'large'?");
+  check_one(kHead + "  halve: {in: n}\n  multiply: {in: n, out: r}\n",
+            "test.yaml:4:3: halve: ", "expected `out`: a name for its test::Number, test::Text");
+}
+
+TEST_CASE("a node with a state takes the objects of a frame all at once", "[plan]") {
+  check_one(kHead + "  split: {in: n, out: o}\n  add_up: {in: o, out: s}\n  sum: {in: s, out: r}\n",
+            "test.yaml:5:3: add_up: ", "would run for each object");
 }

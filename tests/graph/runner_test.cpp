@@ -26,12 +26,12 @@ void with_threads(int threads, const Body& body) {
 }  // namespace
 
 TEST_CASE("results leave in frame order, whatever takes longest", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
   for (const int threads : {1, 2, 8})
     with_threads(threads, [&] {
       std::vector<int> order;
       const auto summary = run_numbers(
-          plan, 100, {}, [&](const auto& result) { order.push_back(value_of(result.result)); });
+          plan, 100, {}, [&](const auto& result) { order.push_back(result.result->value); });
       CHECK(summary.done == 100);
       REQUIRE(order.size() == 100);
       for (int i = 0; i < 100; ++i) REQUIRE(order[std::size_t(i)] == i);
@@ -39,7 +39,7 @@ TEST_CASE("results leave in frame order, whatever takes longest", "[runner]") {
 }
 
 TEST_CASE("tokens bound the frames in flight", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
   with_threads(8, [&] {
     for (const std::size_t tokens : {1, 3}) {
       peak_bodies = 0;
@@ -52,14 +52,14 @@ TEST_CASE("tokens bound the frames in flight", "[runner]") {
 }
 
 TEST_CASE("a diamond joins what belongs to one frame", "[runner]") {
-  const graph::Plan plan = plan_of(kHead +
-                                   "  wait_a_little: {in: n, out: a}\n"
-                                   "  multiply: {in: n, out: b, factor: 10}\n"
-                                   "  add: {in: [a, b], out: r}\n");
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  wait_a_little: {in: n, out: a}\n"
+                                      "  multiply: {in: n, out: b, factor: 10}\n"
+                                      "  add: {in: [a, b], out: r}\n");
   with_threads(4, [&] {
     int next = 0;
     run_numbers(plan, 64, {}, [&](const auto& result) {
-      CHECK(value_of(result.result) == 11 * next);
+      CHECK(result.result->value == 11 * next);
       ++next;
     });
     CHECK(next == 64);
@@ -67,17 +67,16 @@ TEST_CASE("a diamond joins what belongs to one frame", "[runner]") {
 }
 
 TEST_CASE("a node may read one stream twice", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  add: {in: [n, n], out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  add: {in: [n, n], out: r}\n");
   int next = 0;
-  run_numbers(plan, 5, {},
-              [&](const auto& result) { CHECK(value_of(result.result) == 2 * next++); });
+  run_numbers(plan, 5, {}, [&](const auto& result) { CHECK(result.result->value == 2 * next++); });
 }
 
 TEST_CASE("a failing frame leaves as a named failure and the others go on", "[runner]") {
-  const graph::Plan plan = plan_of(kHead +
-                                   "  fail_on: {in: n, out: a, bad: 3}\n"
-                                   "  multiply: {in: a, out: r}\n"
-                                   "  swallow: {in: r}\n");
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  fail_on: {in: n, out: a, bad: 3}\n"
+                                      "  multiply: {in: a, out: r}\n"
+                                      "  swallow: {in: r}\n");
   with_threads(4, [&] {
     swallowed = 0;
     std::vector<bool> failed;
@@ -97,7 +96,7 @@ TEST_CASE("a failing frame leaves as a named failure and the others go on", "[ru
 }
 
 TEST_CASE("what is thrown need not be an exception type", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  fail_on: {in: n, out: r, odd_throw: true}\n");
+  const NumberPipeline plan = plan_of(kHead + "  fail_on: {in: n, out: r, odd_throw: true}\n");
   const auto summary = run_numbers(plan, 3, {}, [](const auto& result) {
     REQUIRE(result.failure);
     CHECK(result.failure->what == "unknown exception");
@@ -107,7 +106,7 @@ TEST_CASE("what is thrown need not be an exception type", "[runner]") {
 
 TEST_CASE("stop_on_failure reports nothing behind the failed frame, at any thread count",
           "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  fail_on: {in: n, out: r, bad: 5}\n");
+  const NumberPipeline plan = plan_of(kHead + "  fail_on: {in: n, out: r, bad: 5}\n");
   for (const int threads : {1, 4})
     with_threads(threads, [&] {
       graph::RunOptions options;
@@ -122,7 +121,7 @@ TEST_CASE("stop_on_failure reports nothing behind the failed frame, at any threa
 }
 
 TEST_CASE("an interrupt lets the frames in flight leave", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
   with_threads(4, [&] {
     std::atomic<bool> interrupted = false;
     graph::RunOptions options;
@@ -141,7 +140,7 @@ TEST_CASE("an interrupt lets the frames in flight leave", "[runner]") {
 }
 
 TEST_CASE("what the receiver throws ends the run and comes out", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
   CHECK_THROWS_WITH(run_numbers(plan, 1000, {},
                                 [](const auto& result) {
                                   if (result.context.number == 4)
@@ -151,24 +150,24 @@ TEST_CASE("what the receiver throws ends the run and comes out", "[runner]") {
 }
 
 TEST_CASE("a node written for one object runs over all of them, slots in order", "[runner]") {
-  const graph::Plan plan = plan_of(kHead +
-                                   "  split: {in: n, out: objects}\n"
-                                   "  multiply: {in: objects, out: doubled}\n"
-                                   "  add: {in: [doubled, n], out: added}\n"
-                                   "  sum: {in: added, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  split: {in: n, out: objects}\n"
+                                      "  multiply: {in: objects, out: doubled}\n"
+                                      "  add: {in: [doubled, n], out: added}\n"
+                                      "  sum: {in: added, out: r}\n");
   int next = 0;
   run_numbers(plan, 3, {}, [&](const auto& result) {
     const int n = next++;
     const int expected = 100 * (2 * n + n) + 10 * (2 * (n + 1) + n) + 2 * (n + 2) + n;
-    CHECK(value_of(result.result) == expected);
+    CHECK(result.result->value == expected);
   });
 }
 
 TEST_CASE("the first failing object names itself", "[runner]") {
-  const graph::Plan plan = plan_of(kHead +
-                                   "  split: {in: n, out: objects}\n"
-                                   "  fail_on: {in: objects, out: kept, bad: 4}\n"
-                                   "  sum: {in: kept, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  split: {in: n, out: objects}\n"
+                                      "  fail_on: {in: objects, out: kept, bad: 4}\n"
+                                      "  sum: {in: kept, out: r}\n");
   std::vector<std::string> what;
   run_numbers(plan, 6, {}, [&](const auto& result) {
     if (result.failure) what.push_back(result.failure->what);
@@ -177,10 +176,10 @@ TEST_CASE("the first failing object names itself", "[runner]") {
 }
 
 TEST_CASE("a failure knows its object and the cause apart", "[runner]") {
-  const graph::Plan plan = plan_of(kHead +
-                                   "  split: {in: n, out: objects}\n"
-                                   "  fail_on: {in: objects, out: kept, bad: 4}\n"
-                                   "  sum: {in: kept, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  split: {in: n, out: objects}\n"
+                                      "  fail_on: {in: objects, out: kept, bad: 4}\n"
+                                      "  sum: {in: kept, out: r}\n");
   run_numbers(plan, 6, {}, [&](const auto& result) {
     if (!result.failure) return;
     REQUIRE(result.failure->object);
@@ -190,7 +189,7 @@ TEST_CASE("a failure knows its object and the cause apart", "[runner]") {
 }
 
 TEST_CASE("a body that waits in an inner loop is not entered again", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  nested: {in: n, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  nested: {in: n, out: r}\n");
   with_threads(8, [&] {
     const auto summary = run_numbers(plan, 100, {}, [](const auto& result) {
       if (result.failure) FAIL_CHECK(result.failure->what);
@@ -201,29 +200,163 @@ TEST_CASE("a body that waits in an inner loop is not entered again", "[runner]")
 
 TEST_CASE("constants are worked out once, before the first frame", "[runner]") {
   const graph::StreamType type = graph::StreamTraits<Number>::type();
-  const graph::Plan plan = plan_of(kHead +
-                                       "  multiply: {in: c, out: d, factor: 10}\n"
-                                       "  add: {in: [n, d], out: r}\n",
-                                   {{"c", type}});
+  const NumberPipeline plan = plan_of(kHead +
+                                          "  multiply: {in: c, out: d, factor: 10}\n"
+                                          "  add: {in: [n, d], out: r}\n",
+                                      {{"c", type}});
   const auto constants = graph::fold_constants(plan, {{"c", number(4)}});
   std::vector<int> values;
   run_numbers(
       plan, 2, {},
       [&](const auto& result) {
-        values.push_back(value_of(result.result));
+        values.push_back(result.result->value);
         CHECK_FALSE(result.spans[0].ran());
       },
       constants);
   CHECK(values == std::vector<int>{40, 41});
-  const graph::Plan bad = plan_of(kHead +
-                                      "  fail_on: {in: c, out: d, bad: 4}\n"
-                                      "  add: {in: [n, d], out: r}\n",
-                                  {{"c", type}});
+  const NumberPipeline bad = plan_of(kHead +
+                                         "  fail_on: {in: c, out: d, bad: 4}\n"
+                                         "  add: {in: [n, d], out: r}\n",
+                                     {{"c", type}});
   CHECK_THROWS_WITH(graph::fold_constants(bad, {{"c", number(4)}}), "fail_on: met 4");
 }
 
+TEST_CASE("a constant that is missing or of another type is refused", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead + "  add: {in: [n, c], out: r}\n",
+                                      {{"c", graph::StreamTraits<Number>::type()}});
+  const auto run_with = [&plan](const graph::Constants& constants) {
+    run_numbers(
+        plan, 1, {}, [](const auto&) {}, constants);
+  };
+  CHECK_THROWS_WITH(run_with({}), "the constant 'c' is not given");
+  CHECK_THROWS_WITH(run_with({{"c", graph::constant(std::make_shared<const Text>(Text{"one"}))}}),
+                    "the constant 'c' is test::Text, expected test::Number");
+}
+
+TEST_CASE("a source need not know how many frames there will be", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  for (const int threads : {1, 4})
+    with_threads(threads, [&] {
+      int value = 1;
+      const auto doubling = [&value]() -> std::optional<graph::Frame<Number>> {
+        if (value > 1000) return std::nullopt;
+        return graph::Frame<Number>{{}, {Number{std::exchange(value, 2 * value)}}};
+      };
+      value = 1;
+      std::vector<int> seen;
+      const auto summary = graph::run(
+          plan, {}, doubling, {},
+          std::function([&](const NumberResult& result) { seen.push_back(result.result->value); }));
+      CHECK(seen == std::vector<int>{1, 2, 4, 8, 16, 32, 64, 128, 256, 512});
+      CHECK(summary.done == 10);
+      CHECK_FALSE(summary.stopped);
+    });
+}
+
+TEST_CASE("what the source throws ends the run and comes out", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
+  int reported = 0;
+  const auto source = [next = 0]() mutable -> std::optional<graph::Frame<Number>> {
+    if (next == 3) throw std::runtime_error("the sensor is gone");
+    return graph::Frame<Number>{{}, {Number{next++}}};
+  };
+  CHECK_THROWS_WITH(
+      graph::run(plan, {}, source, {}, std::function([&](const NumberResult&) { ++reported; })),
+      "the sensor is gone");
+  CHECK(reported == 3);
+}
+
+TEST_CASE("all objects of a frame may be a pipeline's result", "[runner]") {
+  std::vector<graph::Problem> problems;
+  const auto plan = plan_of<PerObject<Number>(Number)>(
+      kHead + "  split: {in: n, out: objects}\n  multiply: {in: objects, out: r}\n", problems);
+  REQUIRE(problems.empty());
+  const auto result = graph::run_one(plan, {}, {{}, {Number{5}}});
+  REQUIRE(result.result);
+  REQUIRE(result.result->size() == 3);
+  CHECK((*result.result)[2].value == 14);
+}
+
+TEST_CASE("several outputs travel apart, those of each object in its slot", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  halve: {in: n, out: [small, large]}\n"
+                                      "  count_letters: {in: large, out: letters}\n"
+                                      "  add: {in: [small, letters], out: r}\n");
+  int next = 0;
+  run_numbers(plan, 40, {}, [&](const auto& result) {
+    CHECK(result.result->value == next / 2 + (next - next / 2 < 10 ? 1 : 2));
+    ++next;
+  });
+  const NumberPipeline lifted =
+      plan_of(kHead +
+              "  split: {in: n, out: objects}\n"
+              "  halve: {in: objects, out: {large: large, small: small}}\n"
+              "  count_letters: {in: large, out: letters}\n"
+              "  add: {in: [small, letters], out: sums}\n"
+              "  sum: {in: sums, out: r}\n");
+  const auto result = graph::run_one(lifted, {}, {{}, {Number{4}}});
+  CHECK(result.result->value == 334);  // 4/2 + 1, 5/2 + 1, 6/2 + 1
+}
+
+TEST_CASE("a node with a state sees the frames in order, failed ones apart, anew in each run",
+          "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  wait_a_little: {in: n, out: a}\n"
+                                      "  fail_on: {in: a, out: b, bad: 3}\n"
+                                      "  add_up: {in: b, out: s}\n"
+                                      "  multiply: {in: s, out: r, factor: 1}\n");
+  for (const int threads : {1, 2, 8})
+    with_threads(threads, [&] {
+      for (int run = 0; run < 2; ++run) {
+        int sum = 0, next = 0;
+        const auto summary = run_numbers(plan, 60, {}, [&](const NumberResult& result) {
+          const int n = next++;
+          REQUIRE(result.failure.has_value() == (n == 3));
+          if (n == 3) return;
+          sum += n;
+          CHECK(result.result->value == sum + (n > 3 ? 1000 : 0));
+        });
+        CHECK(summary.done == 59);
+        CHECK(summary.failed == 1);
+      }
+    });
+}
+
+TEST_CASE("a node that runs last knows all stages and every failure, in order", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  keep_log: {in: r}\n"
+                                      "  wait_a_little: {in: n, out: a}\n"
+                                      "  fail_on: {in: a, out: b, bad: 1}\n"
+                                      "  swallow: {in: b}\n"
+                                      "  multiply: {in: n, out: r, factor: 10}\n");
+  const std::string after = " after wait_a_little fail_on swallow multiply";
+  for (const int threads : {1, 8})
+    with_threads(threads, [&] {
+      for (const bool stop : {false, true}) {
+        graph::RunOptions options;
+        options.stop_on_failure = stop;
+        const auto summary = run_numbers(plan, 30, options, [](const auto&) {});
+        CHECK(summary.failed == 1);
+        REQUIRE(logged.size() == (stop ? 2 : 30));
+        CHECK(logged[0] == "0" + after);
+        CHECK(logged[1] == "fail_on: met 1");
+        if (!stop) CHECK(logged[29] == "290" + after);
+      }
+    });
+}
+
+TEST_CASE("a node may end the run where no frame could do better", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  wait_a_little: {in: n, out: r}\n"
+                                      "  keep_log: {in: r, limit: 5}\n");
+  with_threads(4, [&] {
+    CHECK_THROWS_WITH(run_numbers(plan, 100000, {}, [](const auto&) {}), "the log is full");
+    CHECK(logged.size() == 5);
+  });
+}
+
 TEST_CASE("no frames, and a second run of one plan", "[runner]") {
-  const graph::Plan plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
+  const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
   CHECK(run_numbers(plan, 0, {}, [](const auto&) {}).done == 0);
   CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
   CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);

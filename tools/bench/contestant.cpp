@@ -18,7 +18,7 @@ std::vector<std::string> without_writers(const BenchCommand& command, const Meth
   const graph::Plan plan = load_configuration(command.config, sets, {}, method.pipeline).scenes;
   for (const graph::PlannedNode& node : plan.nodes)
     for (const graph::ParamSpec& param : node.spec->params)
-      if (node.output < 0 && param.name == "every") sets.push_back(node.name + ".every=0");
+      if (node.outputs.empty() && param.name == "every") sets.push_back(node.name + ".every=0");
   return sets;
 }
 
@@ -35,19 +35,17 @@ Contestant make_contestant(const BenchCommand& command, const Method& method) {
 
 void train_once(Contestant& contestant, const ModelFiles& models) {
   const auto begin = std::chrono::steady_clock::now();
-  const graph::Value library = train(contestant.configuration, models);
-  const graph::Plan& plan = contestant.configuration.models;
-  contestant.constants = graph::fold_constants(
-      contestant.configuration.scenes, {{plan.streams[std::size_t(plan.result)].name, library}});
+  contestant.constants =
+      constants_of(contestant.configuration, train(contestant.configuration, models));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   contestant.training.push_back(seconds.count());
 }
 
 void run_once(Contestant& contestant, const SceneEntry& scene) {
-  const graph::Plan& plan = contestant.configuration.scenes;
-  const graph::FrameResult result = graph::run_one(
-      plan, contestant.constants,
-      {{scene.number, scene.name, {}, 0}, {std::make_shared<const SceneFile>(scene.file)}});
+  const ScenePipeline& plan = contestant.configuration.scenes;
+  const auto result =
+      graph::run_one(plan, contestant.constants,
+                     {{scene.number, scene.name, {}, 0, scene.file.path, {}}, {scene.file}});
   if (result.failure)
     throw std::runtime_error(scene.file.path.string() + ": " + result.failure->node + ": " +
                              result.failure->what);

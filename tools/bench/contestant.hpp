@@ -20,7 +20,7 @@ using Samples = std::vector<double>;
 struct Contestant {
   Method method;
   Configuration configuration;
-  std::map<std::string, graph::Value> constants;
+  graph::Constants constants;
   Samples training, online;  ///< [s]; online: a scan, loading aside
   std::vector<Samples> stages;
 };

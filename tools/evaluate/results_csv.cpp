@@ -20,7 +20,7 @@ T parse(const std::string& text, const std::string& name) {
   const std::optional<T> value = graph::Scalar<T>::parse(text);
   if (!value || !std::isfinite(static_cast<double>(*value)))
     throw std::invalid_argument(name + " is '" + text + "', expected a finite " +
-                                graph::Scalar<T>::kName);
+                                graph::Scalar<T>::name());
   return *value;
 }
 

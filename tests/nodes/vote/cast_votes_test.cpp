@@ -151,10 +151,10 @@ TEST_CASE("a flipped scene normal leaves no correct vote", "[vote]") {
 VoteSet cast_in(const Example& example, const graph::FrameContext& frame) {
   const graph::NodeSpec* spec = graph::find_node("cast_votes");
   const auto params = spec->make_params();
-  const graph::Value votes = spec->call({std::make_shared<const Correspondences>(example.matches),
-                                         std::make_shared<const FeatureSet>(example.scene)},
-                                        frame, params.get());
-  return *static_cast<const VoteSet*>(votes.get());
+  const auto outputs = spec->call({std::make_shared<const Correspondences>(example.matches),
+                                   std::make_shared<const FeatureSet>(example.scene)},
+                                  frame, params.get());
+  return graph::StreamTraits<VoteSet>::unwrap(outputs.at(0));
 }
 
 TEST_CASE("circles start by seed, object and correspondence, not by frame", "[vote]") {
