@@ -133,7 +133,7 @@ class Reporter {
                     result.failure->what);
       return;
     }
-    const FrameReport frame = frame_report(scene, result.spans);
+    const write::FrameReport frame = frame_report(scene, result.spans);
     writer_.write(frame, *result.result, nodes_json(trace_.times()));
     if (!command_.quiet) say(frame, *result.result);
   }
