@@ -7,6 +7,19 @@
 
 namespace posevote::graph {
 
+double elapsed(const std::vector<Span>& spans) {
+  double begin = 0;
+  double end = 0;
+  bool any = false;
+  for (const Span& span : spans) {
+    if (!span.ran()) continue;
+    begin = any ? std::min(begin, span.begin) : span.begin;
+    end = std::max(end, span.end);
+    any = true;
+  }
+  return (end - begin) * 1e-6;
+}
+
 Trace::Trace(const std::vector<std::string>& nodes) {
   for (const std::string& name : nodes) times_.push_back({name});
 }

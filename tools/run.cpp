@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -85,57 +85,43 @@ std::map<std::size_t, fs::path> files_of(const std::vector<SceneEntry>& scenes) 
   return files;
 }
 
-std::string nodes_json(const std::vector<graph::NodeTimes>& times) {
-  double sum = 0;
-  for (const graph::NodeTimes& node : times) sum += node.total;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const graph::NodeTimes& node : times)
-    list.push_back({{"node", node.node},
-                    {"calls", node.calls},
-                    {"total_s", node.total},
-                    {"mean_s", node.mean()},
-                    {"max_s", node.max},
-                    {"share", sum > 0 ? node.total / sum : 0}});
-  return list.dump();
+bool writes_results(const Configuration& configuration) {
+  const auto& nodes = configuration.scenes.nodes;
+  return std::any_of(nodes.begin(), nodes.end(), [](const graph::PlannedNode& node) {
+    return node.spec->name == "write_results";
+  });
 }
 
-/// Receives the frames in order, writes them and tells of them.
-class Reporter {
+/// Makes the files for the results and leaves out the scans that an earlier run answered.
+void begin_run(const RunCommand& command, const Configuration& configuration,
+               std::vector<SceneEntry>& scenes) {
+  if (!writes_results(configuration)) {
+    spdlog::warn("{}: no write_results in the pipeline: no results.csv is written",
+                 configuration.pipeline);
+    return fs::create_directories(command.out), void();
+  }
+  const std::set<std::size_t> answered =
+      begin_results(command.out, command.resume, files_of(scenes));
+  std::erase_if(scenes, [&](const SceneEntry& scene) { return answered.contains(scene.number); });
+  if (!answered.empty()) spdlog::info("{} frames are answered already", answered.size());
+}
+
+/// Tells of the frames as they leave, and writes when each node worked on them.
+class Progress {
  public:
-  Reporter(const RunCommand& command, const Configuration& configuration,
-           std::vector<SceneEntry> scenes)
-      : command_(command),
-        configuration_(configuration),
-        scenes_(std::move(scenes)),
-        writer_(command.out, command.resume, files_of(scenes_)),
-        trace_(node_names(configuration.scenes)) {
-    std::erase_if(scenes_, [this](const SceneEntry& scene) {
-      return writer_.answered().contains(scene.number);
-    });
-    if (!writer_.answered().empty())
-      spdlog::info("{} frames are answered already", writer_.answered().size());
+  Progress(const RunCommand& command, const Configuration& configuration, std::size_t count)
+      : command_(command), count_(count), trace_(node_names(configuration.scenes)) {
     trace_.write_to(fs::path(command.out) / "trace.json");
   }
 
-  std::size_t count() const { return scenes_.size(); }
-
-  graph::Frame<SceneFile> make_frame(std::size_t i) const {
-    const SceneEntry& scene = scenes_[i];
-    return {{scene.number, scene.name, fs::path(command_.out), command_.seed}, {scene.file}};
-  }
-
   void report(const graph::FrameResult<Detections>& result) {
-    const SceneEntry& scene = scenes_[reported_++];
-    trace_.add(scene.name, result.spans);
-    if (result.failure) {
-      writer_.write({scene.number, scene.file.path, result.failure->node, result.failure->what});
-      spdlog::error("{}: {}: {}", scene.file.path.string(), result.failure->node,
+    ++reported_;
+    trace_.add(result.context.name, result.spans);
+    if (result.failure)
+      spdlog::error("{}: {}: {}", result.context.file.string(), result.failure->node,
                     result.failure->what);
-      return;
-    }
-    const write::FrameReport frame = frame_report(scene, result.spans);
-    writer_.write(frame, *result.result, nodes_json(trace_.times()));
-    if (!command_.quiet) say(frame, *result.result);
+    else if (!command_.quiet)
+      say(result.context, *result.result, graph::elapsed(result.spans));
   }
 
   void finish() {
@@ -150,24 +136,9 @@ class Reporter {
     return names;
   }
 
-  write::FrameReport frame_report(const SceneEntry& scene,
-                                  const std::vector<graph::Span>& spans) const {
-    write::FrameReport report{scene.number, scene.file, 0, {}, scene.name};
-    double begin = 0;
-    double end = 0;
-    for (std::size_t i = 0; i < spans.size(); ++i) {
-      if (!spans[i].ran()) continue;
-      begin = report.stages.empty() ? spans[i].begin : std::min(begin, spans[i].begin);
-      end = std::max(end, spans[i].end);
-      report.stages[configuration_.scenes.nodes[i].name] = spans[i].seconds();
-    }
-    report.seconds = (end - begin) * 1e-6;
-    return report;
-  }
-
-  void say(const write::FrameReport& frame, const Detections& detections) const {
-    std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, scenes_.size(),
-                frame.file.path.filename().c_str(), detections.items.size(), frame.seconds);
+  void say(const graph::FrameContext& frame, const Detections& detections, double seconds) const {
+    std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, count_,
+                frame.file.filename().c_str(), detections.items.size(), seconds);
     for (const Detection& item : detections.items)
       std::printf("    %-24s score %.2f  density %.0f (next %.0f)  inliers %.0f %%  rms %.2f mm\n",
                   item.model.c_str(), item.score, item.density, item.runner_up_density,
@@ -176,12 +147,30 @@ class Reporter {
   }
 
   const RunCommand& command_;
-  const Configuration& configuration_;
-  std::vector<SceneEntry> scenes_;
-  write::ResultsWriter writer_;
+  const std::size_t count_;
   graph::Trace trace_;
   std::size_t reported_ = 0;
 };
+
+graph::RunSummary run_scenes(const RunCommand& command, const Configuration& configuration,
+                             const graph::Constants& constants,
+                             const std::vector<SceneEntry>& scenes,
+                             const std::atomic<bool>& interrupted) {
+  Progress progress(command, configuration, scenes.size());
+  const auto make_frame = [&](std::size_t i) {
+    const SceneEntry& scene = scenes[i];
+    return graph::Frame<SceneFile>{
+        {scene.number, scene.name, command.out, command.seed, scene.file.path, {}}, {scene.file}};
+  };
+  const graph::RunSummary summary =
+      graph::run(configuration.scenes, constants, graph::counted(scenes.size(), make_frame),
+                 {command.tokens, command.on_error == "stop", &interrupted},
+                 std::function([&progress](const graph::FrameResult<Detections>& result) {
+                   progress.report(result);
+                 }));
+  progress.finish();
+  return summary;
+}
 
 int exit_status(const graph::RunSummary& summary, bool interrupted) {
   if (interrupted) return 130;
@@ -207,19 +196,12 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
   if (command.resume) check_same_run(effective, description);
-  Reporter reporter =
-      as_arguments([&] { return Reporter(command, configuration, std::move(scenes)); });
+  as_arguments([&] { return begin_run(command, configuration, scenes); });
   // A resumed run has it; a full disk must not take it.
   if (!command.resume || !fs::exists(effective))
     as_arguments([&] { write_text(effective, description); });
-  const graph::RunOptions options{command.tokens, command.on_error == "stop", &interrupted};
-  const auto make_frame = [&reporter](std::size_t i) { return reporter.make_frame(i); };
   const graph::RunSummary summary =
-      graph::run(configuration.scenes, constants, graph::counted(reporter.count(), make_frame),
-                 options, std::function([&reporter](const graph::FrameResult<Detections>& result) {
-                   reporter.report(result);
-                 }));
-  reporter.finish();
+      run_scenes(command, configuration, constants, scenes, interrupted);
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
               command.out.c_str());
   return exit_status(summary, interrupted);

@@ -15,6 +15,15 @@ AppendJson::AppendJson(std::filesystem::path file, const std::string& head, std:
   end_ = static_cast<std::streamoff>(head.size());
 }
 
+AppendJson::AppendJson(std::filesystem::path file, std::string tail)
+    : file_(std::move(file)), tail_(std::move(tail)) {
+  stream_.open(file_, std::ios::in | std::ios::out | std::ios::binary);
+  stream_.seekg(-static_cast<std::streamoff>(tail_.size()) - 1, std::ios::end);
+  empty_ = stream_.get() == '[';
+  end_ = stream_.tellg();
+  if (!stream_) throw std::runtime_error(file_.string() + ": is not what this run began");
+}
+
 void AppendJson::append(const std::string& item, const std::string& tail) {
   stream_.seekp(end_);
   const std::string text = (empty_ ? "\n" : ",\n") + item;
@@ -31,11 +40,6 @@ void AppendJson::append(const std::string& item, const std::string& tail) {
   std::filesystem::resize_file(file_, std::size_t(end_) + tail.size());
   tail_ = tail;
   empty_ = false;
-}
-
-void AppendJson::rename(const std::filesystem::path& to) {
-  std::filesystem::rename(file_, to);
-  file_ = to;
 }
 
 void AppendJson::put(const std::string& text) {

@@ -15,11 +15,11 @@ class AppendJson {
  public:
   /// Starts the file anew.
   AppendJson(std::filesystem::path file, const std::string& head, std::string tail);
+  /// Goes on with a file that another AppendJson has left with that tail.
+  AppendJson(std::filesystem::path file, std::string tail);
 
   void append(const std::string& item, const std::string& tail);
   void append(const std::string& item) { append(item, tail_); }
-  /// Moves the file; later appends go to the new name.
-  void rename(const std::filesystem::path& to);
 
  private:
   void put(const std::string& text);

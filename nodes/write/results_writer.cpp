@@ -16,8 +16,18 @@ constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time\n";
 constexpr const char* kResultsHead = "{\"frames\": [";
 constexpr const char* kFailuresTail = "\n]\n";
 
-std::string results_tail(const std::string& nodes_json) {
-  return "\n],\n\"nodes\": " + nodes_json + "}\n";
+std::string results_tail(const std::vector<graph::NodeTimes>& nodes) {
+  double sum = 0;
+  for (const graph::NodeTimes& node : nodes) sum += node.total;
+  ordered_json list = ordered_json::array();
+  for (const graph::NodeTimes& node : nodes)
+    list.push_back({{"node", node.node},
+                    {"calls", node.calls},
+                    {"total_s", node.total},
+                    {"mean_s", node.mean()},
+                    {"max_s", node.max},
+                    {"share", sum > 0 ? node.total / sum : 0}});
+  return "\n],\n\"nodes\": " + list.dump() + "}\n";
 }
 
 /// One line; names that are not UTF-8 (paths may be anything) are mended, not thrown at.
@@ -97,9 +107,8 @@ void require(const std::ostream& stream, const fs::path& file) {
 
 }  // namespace
 
-ResultsWriter::ResultsWriter(const fs::path& out, bool resume,
-                             const std::map<std::size_t, fs::path>& scans)
-    : out_(out) {
+std::set<std::size_t> begin_results(const fs::path& out, bool resume,
+                                    const std::map<std::size_t, fs::path>& scans) {
   const fs::path csv = out / "results.csv";
   const fs::path results = out / "results.json";
   if (!resume && (fs::exists(csv) || fs::exists(results)))
@@ -108,37 +117,47 @@ ResultsWriter::ResultsWriter(const fs::path& out, bool resume,
   fs::create_directories(out);
   const std::vector<ordered_json> frames = read_frames(results, "im_id").items;
   check_same_scans(results, frames, scans);
-  std::string rows;
-  for (const ordered_json& frame : frames) rows += csv_rows(frame);
   // Old results are rewritten beside the old files, so that a crash here loses none of them.
   const fs::path new_csv = out / "results.csv.new";
   const fs::path new_results = out / "results.json.new";
-  csv_.open(new_csv, std::ios::binary | std::ios::trunc);
-  csv_ << kHeader << rows << std::flush;
-  require(csv_, new_csv);
-  results_ = std::make_unique<AppendJson>(new_results, kResultsHead, results_tail("[]"));
-  for (const ordered_json& frame : frames) {
-    results_->append(line(frame));
-    answered_.insert(frame.at("frame").get<std::size_t>());
+  std::set<std::size_t> answered;
+  {
+    std::ofstream rows(new_csv, std::ios::binary | std::ios::trunc);
+    AppendJson list(new_results, kResultsHead, results_tail({}));
+    rows << kHeader;
+    for (const ordered_json& frame : frames) {
+      rows << csv_rows(frame);
+      list.append(line(frame));
+      answered.insert(frame.at("frame").get<std::size_t>());
+    }
+    rows << std::flush;
+    require(rows, new_csv);
   }
   fs::rename(new_csv, csv);
-  results_->rename(results);
-  failures_ = std::make_unique<AppendJson>(out / "failures.json", "[", kFailuresTail);
+  fs::rename(new_results, results);
+  AppendJson(out / "failures.json", "[", kFailuresTail);
+  return answered;
 }
 
+ResultsWriter::ResultsWriter(const fs::path& out)
+    : csv_file_(out / "results.csv"),
+      csv_(csv_file_, std::ios::binary | std::ios::app),
+      results_(out / "results.json", results_tail({})),
+      failures_(out / "failures.json", kFailuresTail) {}
+
 void ResultsWriter::write(const FrameReport& frame, const Detections& detections,
-                          const std::string& nodes_json) {
+                          const std::vector<graph::NodeTimes>& nodes) {
   errno = 0;
   csv_ << csv_rows(frame, detections) << std::flush;
-  require(csv_, out_ / "results.csv");
-  results_->append(line(to_json(frame, detections)), results_tail(nodes_json));
+  require(csv_, csv_file_);
+  results_.append(line(to_json(frame, detections)), results_tail(nodes));
 }
 
 void ResultsWriter::write(const FailureReport& failure) {
-  failures_->append(line({{"frame", failure.number},
-                          {"file", failure.file.string()},
-                          {"node", failure.node},
-                          {"what", failure.what}}));
+  failures_.append(line({{"frame", failure.number},
+                         {"file", failure.file.string()},
+                         {"node", failure.node},
+                         {"what", failure.what}}));
 }
 
 WrittenFrames read_frames(const fs::path& file, const std::string& key) {

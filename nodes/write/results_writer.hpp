@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "graph/trace.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/files.hpp"
 #include "nodes/write/append_json.hpp"
@@ -33,28 +33,30 @@ struct FailureReport {
   std::string what;
 };
 
+/// Makes the files of a run in `out`; with `resume`, they hold what an earlier one answered, whose
+/// frames are returned. Failed ones are not among them: a resumed run tries them again. `scans`:
+/// the file of each frame. Throws std::invalid_argument, and leaves all as it is, where `out` holds
+/// another run and `resume` is false, or where it holds frames of other files; and
+/// std::runtime_error where it cannot be written.
+std::set<std::size_t> begin_results(const std::filesystem::path& out, bool resume,
+                                    const std::map<std::size_t, std::filesystem::path>& scans = {});
+
+/// Appends to the files that begin_results has made. Throws std::runtime_error where one cannot be
+/// written.
 class ResultsWriter {
  public:
-  /// `scans`: the file of each frame. Throws std::invalid_argument, and leaves all as it is, where
-  /// `out` holds another run and `resume` is false, or where it holds frames of other files; and
-  /// std::runtime_error where it cannot be written.
-  ResultsWriter(const std::filesystem::path& out, bool resume,
-                const std::map<std::size_t, std::filesystem::path>& scans = {});
+  explicit ResultsWriter(const std::filesystem::path& out);
 
-  /// Frames that an earlier run answered; they are in the files already. Failed ones are not among
-  /// them: a resumed run tries them again.
-  const std::set<std::size_t>& answered() const { return answered_; }
-
-  /// `nodes_json`: the run's totals per node so far, a JSON list.
-  void write(const FrameReport& frame, const Detections& detections, const std::string& nodes_json);
+  /// `nodes`: the run's totals per node so far.
+  void write(const FrameReport& frame, const Detections& detections,
+             const std::vector<graph::NodeTimes>& nodes);
   void write(const FailureReport& failure);
 
  private:
-  std::filesystem::path out_;
-  std::set<std::size_t> answered_;
+  std::filesystem::path csv_file_;
   std::ofstream csv_;
-  std::unique_ptr<AppendJson> results_;
-  std::unique_ptr<AppendJson> failures_;
+  AppendJson results_;
+  AppendJson failures_;
 };
 
 /// Items of a results.json or failures.json.

@@ -31,8 +31,8 @@ Out run_node(const std::string& name, const std::map<std::string, std::string>& 
     if (!known) throw std::invalid_argument(name + " has no parameter " + key);
   }
   const std::vector<graph::Value> inputs{graph::StreamTraits<In>::wrap(std::move(in))...};
-  const std::vector<graph::Value> values = spec->call(inputs, graph::FrameContext{}, params.get());
-  return Out(graph::StreamTraits<Out>::unwrap(values.at(0)));
+  const std::vector<graph::Value> outputs = spec->call(inputs, graph::FrameContext{}, params.get());
+  return Out(graph::StreamTraits<Out>::unwrap(outputs.at(0)));
 }
 
 }  // namespace posevote::test

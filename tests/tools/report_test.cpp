@@ -85,11 +85,12 @@ write::FrameReport frame(std::size_t number, const std::string& name) {
 
 /// A run of three frames, each with a picture, and a failure.
 void write_run(const std::filesystem::path& folder) {
-  write::ResultsWriter writer(folder, false);
-  writer.write(frame(0, "one"), {{found("chef", 0.91), found("chicken", 0.42)}}, "[]");
-  writer.write(frame(1, "two"), {{found("chef", 0.93)}}, "[]");
-  writer.write(frame(2, "three"), {}, "[]");
-  writer.write(write::FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
+  begin_results(folder, false);
+  ResultsWriter writer(folder);
+  writer.write(frame(0, "one"), {{found("chef", 0.91), found("chicken", 0.42)}}, {});
+  writer.write(frame(1, "two"), {{found("chef", 0.93)}}, {});
+  writer.write(frame(2, "three"), {}, {});
+  writer.write(FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
   std::filesystem::create_directories(folder / "pictures");
   for (const char* name : {"one", "two", "three"})
     std::ofstream(folder / "pictures" / (std::string(name) + ".png")) << kPng << name;
@@ -175,9 +176,10 @@ TEST_CASE("odd names and messages", "[report]") {
   const TemporaryFolder folder;
   const std::string name = "a<b>&\"c\"\xff";
   {
-    write::ResultsWriter writer(folder.path(), false);
-    writer.write(frame(0, name), {{found("</td><script>x</script>", 2)}}, "[]");
-    writer.write(write::FailureReport{1, name, "<node>", "\"&\xfe\n"});
+    begin_results(folder.path(), false);
+    ResultsWriter writer(folder.path());
+    writer.write(frame(0, name), {{found("</td><script>x</script>", 2)}}, {});
+    writer.write(FailureReport{1, name, "<node>", "\"&\xfe\n"});
   }
   std::filesystem::create_directories(folder / "pictures");
   std::ofstream(folder / "pictures" / (name + ".png")) << kPng;
@@ -251,7 +253,7 @@ TEST_CASE("an experiment and an evaluation that are torn", "[report]") {
   folder.write("uwa.json", "{\"dataset\": \"x");
   folder.write("uwa.csv", "method,recall\nposevote,0.5\nransac,<0.5\nhough3d");
   folder.write("uwa.svg", "<svg><g");
-  folder.write("growth.json", "[]");
+  folder.write("growth.json", {});
   folder.write("growth.csv", "");
   folder.write("growth.svg", "");
   folder.write("judged/evaluation.json", "{\"all\": 3}");

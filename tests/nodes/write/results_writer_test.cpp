@@ -65,16 +65,19 @@ TEST_CASE("a row of results.csv is BOP's: R row by row, t in mm", "[write]") {
 
 TEST_CASE("the files are complete after every frame", "[write]") {
   const TemporaryFolder folder;
-  write::ResultsWriter writer(folder / "out", false);
+  begin_results(folder / "out", false);
+  ResultsWriter writer(folder / "out");
   CHECK(json(folder / "out/results.json")["frames"].empty());
   CHECK(json(folder / "out/failures.json").empty());
   for (std::size_t i = 0; i < 3; ++i) {
-    writer.write(frame(i), one_chef(), R"([{"node": "load_scene", "calls": 1}])");
+    writer.write(frame(i), one_chef(), {{"load_scene", 1, 0.5, 0.5}});
     const auto results = json(folder / "out/results.json");
     REQUIRE(results["frames"].size() == i + 1);
     CHECK(results["frames"][i]["frame"] == i);
     CHECK(results["frames"][i]["detections"][0]["T_scene_model"][3] == 0.1);
-    CHECK(results["nodes"][0]["node"] == "load_scene");
+    CHECK(results["nodes"][0] == nlohmann::json::parse(
+                                     R"({"node": "load_scene", "calls": 1, "total_s": 0.5,
+                                         "mean_s": 0.5, "max_s": 0.5, "share": 1.0})"));
   }
   writer.write(write::FailureReport{3, "scans/bad\xff.ply", "load_scene", "truncated"});
   writer.write(write::FailureReport{4, "b.ply", "load_scene", "empty"});
@@ -85,27 +88,27 @@ TEST_CASE("the files are complete after every frame", "[write]") {
 
 TEST_CASE("another run's folder is not written over", "[write]") {
   const TemporaryFolder folder;
-  { write::ResultsWriter writer(folder / "out", false); }
-  CHECK_THROWS_AS(write::ResultsWriter(folder / "out", false), std::invalid_argument);
+  CHECK(begin_results(folder / "out", false).empty());
+  CHECK_THROWS_AS(begin_results(folder / "out", false), std::invalid_argument);
 }
 
 TEST_CASE("resuming keeps answered frames and drops what a killed run left half written",
           "[write]") {
   const TemporaryFolder folder;
   {
-    write::ResultsWriter writer(folder / "out", false);
-    writer.write(frame(0), one_chef(), "[]");
-    writer.write(frame(1), {}, "[]");
-    writer.write(write::FailureReport{2, "b.ply", "load_scene", "empty"});
+    begin_results(folder / "out", false);
+    ResultsWriter writer(folder / "out");
+    writer.write(frame(0), one_chef(), {});
+    writer.write(frame(1), {}, {});
+    writer.write(FailureReport{2, "b.ply", "load_scene", "empty"});
   }
   std::ofstream(folder / "out/results.csv", std::ios::app)
       << write::csv_rows(frame(4), one_chef()) << "0,5";
   std::ofstream(folder / "out/results.json", std::ios::app) << "{\"frame\": 5, \"fi";
-  write::ResultsWriter writer(folder / "out", true);
-  CHECK(writer.answered() == std::set<std::size_t>{0, 1});
+  CHECK(begin_results(folder / "out", true) == std::set<std::size_t>{0, 1});
   CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + write::csv_rows(frame(0), one_chef()));
-  writer.write(frame(2), one_chef(), "[]");
+        "scene_id,im_id,obj_id,score,R,t,time\n" + csv_rows(frame(0), one_chef()));
+  ResultsWriter(folder / "out").write(frame(2), one_chef(), {});
   CHECK(json(folder / "out/results.json")["frames"].size() == 3);
   CHECK(json(folder / "out/failures.json").empty());
 }
@@ -114,18 +117,19 @@ TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touc
           "[write]") {
   const TemporaryFolder folder;
   {
-    write::ResultsWriter writer(folder / "out", false);
-    writer.write(frame(0), one_chef(), "[]");
-    writer.write(write::FailureReport{1, "b.ply", "load_scene", "empty"});
+    begin_results(folder / "out", false);
+    ResultsWriter writer(folder / "out");
+    writer.write(frame(0), one_chef(), {});
+    writer.write(FailureReport{1, "b.ply", "load_scene", "empty"});
   }
   std::filesystem::remove(folder / "out/results.csv");
   CHECK_THROWS_WITH(
-      write::ResultsWriter(folder / "out", true, {{0, "elsewhere/other.ply"}}),
+      begin_results(folder / "out", true, {{0, "elsewhere/other.ply"}}),
       Catch::Contains("results.json: frame 0 is ") && Catch::Contains("now it is other.ply"));
   CHECK(json(folder / "out/failures.json").size() == 1);
   CHECK(!std::filesystem::exists(folder / "out/results.csv"));
-  const write::ResultsWriter writer(
-      folder / "out", true, {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
+  begin_results(folder / "out", true,
+                {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
   CHECK(read_text(folder / "out/results.csv") ==
         "scene_id,im_id,obj_id,score,R,t,time\n" + write::csv_rows(frame(0), one_chef()));
 }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run finds: OUT/results.csv (BOP's format), OUT/results.json and OUT/failures.json.
+//
+// One frame at a time, in their order, when all other nodes of the frame are done, so that their
+// times are known. After each frame all three files are whole. Where there is no output folder
+// nothing is written; begin_results must have made the files. One that cannot be written ends the
+// run: no other frame could do better.
+//
+//   write_results: {in: [scene_file, detections]}
+#include <optional>
+#include <stdexcept>
+
+#include "graph/registry.hpp"
+#include "nodes/write/results_writer.hpp"
+
+namespace posevote {
+namespace {
+
+struct Params {};
+
+/// The open files, and the times of all frames so far.
+struct Results {
+  std::optional<ResultsWriter> writer;
+  std::optional<graph::Trace> trace;
+
+  void begin(const graph::FrameContext& context) {
+    if (!writer) writer.emplace(context.out);
+    std::vector<std::string> names;
+    std::vector<graph::Span> spans;
+    for (const graph::Stage& stage : context.stages) {
+      names.push_back(stage.node);
+      spans.push_back(stage.span);
+    }
+    if (!trace) trace.emplace(names);
+    trace->add(context.name, spans);
+  }
+};
+
+FrameReport report_of(const SceneFile& file, const graph::FrameContext& context) {
+  FrameReport report{context.number, file, 0, {}, context.name};
+  std::vector<graph::Span> spans;
+  for (const graph::Stage& stage : context.stages) {
+    spans.push_back(stage.span);
+    if (stage.span.ran()) report.stages[stage.node] = stage.span.seconds();
+  }
+  report.seconds = graph::elapsed(spans);
+  return report;
+}
+
+/// Runs `write`; what it throws ends the run.
+template <class Write>
+void or_end_run(const Write& write) {
+  try {
+    write();
+  } catch (const std::exception& error) {
+    throw graph::EndOfRun(error.what());
+  }
+}
+
+void write_results(Results& results, const SceneFile& file, const Detections& detections,
+                   const graph::FrameContext& context, const Params&) {
+  if (context.out.empty()) return;
+  or_end_run([&] {
+    results.begin(context);
+    results.writer->write(report_of(file, context), detections, results.trace->times());
+  });
+}
+
+void write_failure(Results& results, const graph::Failure& failure,
+                   const graph::FrameContext& context, const Params&) {
+  if (context.out.empty()) return;
+  or_end_run([&] {
+    results.begin(context);
+    results.writer->write({context.number, context.file, failure.node, failure.what});
+  });
+}
+
+const auto registered =
+    graph::register_stateful_node<Results>(
+        "write_results", write_results,
+        "What is found and what failed: results.csv (BOP), results.json, failures.json.")
+        .input("scene_file")
+        .input("detections")
+        .last()
+        .on_failure(write_failure);
+
+}  // namespace
+}  // namespace posevote

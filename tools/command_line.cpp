@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/command_line.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <thread>
+
+#include "graph/schema.hpp"
+
+namespace posevote {
+namespace {
+
+std::vector<CommandEntry>& commands() {
+  static std::vector<CommandEntry> entries;
+  return entries;
+}
+
+std::atomic<bool> interrupted = false;
+
+extern "C" void on_interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+const std::vector<CommandEntry>& all_commands() { return commands(); }
+
+bool add_command(CommandEntry entry) {
+  const auto place = std::lower_bound(
+      commands().begin(), commands().end(), entry,
+      [](const CommandEntry& a, const CommandEntry& b) { return a.name < b.name; });
+  commands().insert(place, std::move(entry));
+  return true;
+}
+
+CLI::Validator whole_number(std::uint64_t most) {
+  return {[most](const std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto [last, error] = std::from_chars(text.data(), end, value);
+            const bool is_octal = text.size() > 1 && text.front() == '0';
+            if (error == std::errc() && last == end && value <= most && !is_octal) return "";
+            return "'" + text + "' is no whole number from 0 to " + std::to_string(most);
+          },
+          "", "whole number"};
+}
+
+CLI::Validator number_in(double low, double high) {
+  return {[range = graph::in_range(low, high)](const std::string& text) -> std::string {
+            const auto value = graph::Scalar<double>::parse(text);
+            if (value && !range.violated_by(*value)) return "";
+            return "'" + text + "' is no number " + range.text();
+          },
+          "", "number"};
+}
+
+void add_set(CLI::App& app, std::vector<std::string>& set) {
+  app.add_option("--set", set, "Override one parameter: node.param=value (repeatable)")
+      ->type_name("NODE.PARAM=VALUE")
+      ->allow_extra_args(false);
+}
+
+int with_threads(std::size_t threads, const std::function<int()>& command) {
+  const std::size_t count =
+      threads > 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          count);
+  oneapi::tbb::task_arena arena(static_cast<int>(count));
+  return arena.execute(command);
+}
+
+const std::atomic<bool>& end_in_order() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  return interrupted;
+}
+
+}  // namespace posevote

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+
+#include "tools/command_line.hpp"
+#include "tools/commands.hpp"
+
+namespace posevote {
+namespace {
+
+void add_options(CLI::App& app, RunCommand& command) {
+  app.footer(
+      "Example:\n  posevote run uwa --models models/*.ply --scenes scans/ --out out/today\n\n"
+      "Writes results.csv (BOP format), results.json, failures.json, effective.yaml and "
+      "trace.json\n"
+      "to --out. Exit status: 0 all frames answered, 1 some failed, 2 nothing ran, 130 Ctrl-C.");
+  app.add_option("config", command.config, "A file, or a name from configs/ (demo, uwa, bop ...)")
+      ->required();
+  app.add_option("--models", command.models, "Model files, folders or globs")->type_name("FILE");
+  app.add_option("--scenes", command.scenes, "Scan files, folders or globs")->type_name("FILE");
+  app.add_option("--dataset", command.dataset,
+                 "A data set (BOP, SIXD 2017, UWA, Queen's): its models and its scans")
+      ->type_name("DIR");
+  app.add_option("--split", command.split, "Split of the data set")->capture_default_str();
+  app.add_option("--out", command.out, "Folder for the results")->capture_default_str();
+  app.add_option("--library", command.library, "A library from `posevote train`, not --models")
+      ->type_name("FILE");
+  app.add_option("--pipeline", command.pipeline,
+                 "Other wiring than the config's, from pipelines/ (ransac, hough3d ...)")
+      ->type_name("NAME");
+  add_set(app, command.set);
+  app.add_option("--threads", command.threads, "Threads; 0: all cores")
+      ->check(whole_number(kMostThreads))
+      ->capture_default_str();
+  app.add_option("--tokens", command.tokens, "Frames in flight; 0: 2 x threads")
+      ->check(whole_number(kMostThreads))
+      ->capture_default_str();
+  app.add_option("--seed", command.seed, "Seed of all randomness")
+      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  app.add_option("--cache", command.cache,
+                 "Folder for trained libraries; default ~/.cache/posevote")
+      ->type_name("DIR");
+  app.add_flag("--resume", command.resume, "Go on in an --out that a run has begun");
+  app.add_option("--shard", command.shard, "Only every N-th scan, from the I-th on")
+      ->type_name("I/N");
+  app.add_option("--on-error", command.on_error, "After a frame that fails")
+      ->check(CLI::IsMember({"skip", "stop"}))
+      ->capture_default_str();
+  app.add_flag("--quiet", command.quiet, "Only errors and the last line");
+}
+
+const auto registered = register_command<RunCommand>(
+    "run", "Find the models in every scan", add_options, [](const RunCommand& command) {
+      return with_threads(command.threads, [&] { return run_command(command, end_in_order()); });
+    });
+
+}  // namespace
+}  // namespace posevote

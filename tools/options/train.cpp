@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/command_line.hpp"
+#include "tools/commands.hpp"
+
+namespace posevote {
+namespace {
+
+void add_options(CLI::App& app, TrainCommand& command) {
+  app.add_option("config", command.config, "The config that the runs will use")->required();
+  app.add_option("--models", command.models, "Model files, folders or globs")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--out", command.out, "The library's file")->required()->type_name("FILE");
+  add_set(app, command.set);
+}
+
+const auto registered =
+    register_command<TrainCommand>("train", "Prepare models once, for `run --library`", add_options,
+                                   [](const TrainCommand& command) {
+                                     return with_threads(0, [&] { return train_command(command); });
+                                   });
+
+}  // namespace
+}  // namespace posevote
