@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
   try {
     spdlog::set_level(spdlog::level::warn);
     const posevote::Bench bench{arguments[0], arguments[2], arguments[1],
-                                layouts::read_ground_truth(arguments[0], "test")};
+                                posevote::layouts::read_ground_truth(arguments[0], "test")};
     std::fputs(posevote::compare(bench, {arguments.begin() + 3, arguments.end()}).c_str(), stdout);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
