@@ -24,7 +24,8 @@ int evaluate_command(const EvaluateCommand& command) {
   options.top = command.top;
   options.results = command.results;
   choose_rules(options.rules);  // a typing mistake shows before the data set is read
-  const GroundTruth truth = read_ground_truth(command.dataset, command.split, command.targets);
+  const layouts::GroundTruth truth =
+      layouts::read_ground_truth(command.dataset, command.split, command.targets);
   const Evaluation evaluation = evaluate(truth, read_results_csv(command.results), options);
   std::cout << to_text(evaluation, command.verbose || evaluation.instances.size() <= kMostLines);
   if (!command.out.empty()) {

@@ -4,13 +4,13 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <map>
 #include <stdexcept>
 
 #include "nodes/formats/format.hpp"
-#include "tools/evaluate/dataset.hpp"
+#include "nodes/layouts/files.hpp"
+#include "nodes/layouts/layout.hpp"
 
 namespace posevote {
 namespace {
@@ -47,12 +47,6 @@ std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted
   return paths;
 }
 
-int number_of(const std::string& digits) {
-  int value = -1;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size() ? value : -1;
-}
-
 /// Names after the file, with the number in front where two files share a name.
 void name_scenes(std::vector<SceneEntry>& scenes) {
   std::map<std::string, int> uses;
@@ -85,7 +79,7 @@ std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
 std::vector<SceneEntry> list_dataset_scenes(const std::string& dataset, const std::string& split) {
   std::vector<SceneEntry> scenes;
   for (SceneFile& file :
-       as_arguments([&] { return find_reader(dataset, split).scenes(dataset, split); })) {
+       as_arguments([&] { return layouts::find_layout(dataset, split).scenes(dataset, split); })) {
     const bool image = file.camera.has_value();
     const std::string folder =
         image ? file.path.parent_path().parent_path().filename().string() + "_" : "";
@@ -98,37 +92,30 @@ std::vector<SceneEntry> list_dataset_scenes(const std::string& dataset, const st
 std::vector<std::string> list_dataset_models(const std::string& dataset, const std::string& split) {
   std::vector<std::string> files;
   for (const fs::path& file :
-       as_arguments([&] { return find_reader(dataset, split).models(dataset); }))
+       as_arguments([&] { return layouts::find_layout(dataset, split).models(dataset); }))
     files.push_back(file.string());
   return files;
 }
 
 ModelFiles list_models(const std::vector<std::string>& arguments) {
-  ModelFiles models;
-  std::map<int, fs::path> taken;
+  std::vector<fs::path> files;
   for (const std::string& argument : arguments)
     for (const fs::path& path : expand(argument, formats::Wanted::kMeshes)) {
       if (!fs::is_regular_file(path))
         throw std::invalid_argument(path.string() + ": no such model file");
-      const std::string stem = path.stem().string();
-      const int named = stem.starts_with("obj_") ? number_of(stem.substr(4)) : -1;
-      const int obj_id = named >= 0 ? named : static_cast<int>(models.size()) + 1;
-      const auto [first, is_new] = taken.emplace(obj_id, path);
-      if (!is_new)
-        throw std::invalid_argument(path.string() + ": has obj_id " + std::to_string(obj_id) +
-                                    ", as has " + first->second.string());
-      models.push_back({path, obj_id, stem});
+      files.push_back(path);
     }
-  std::sort(models.begin(), models.end(),
-            [](const ModelFile& a, const ModelFile& b) { return a.obj_id < b.obj_id; });
+  ModelFiles models;
+  for (const auto& [obj_id, path] : as_arguments([&] { return layouts::number_models(files); }))
+    models.push_back({path, obj_id, path.stem().string()});
   return models;
 }
 
 std::vector<SceneEntry> take_shard(std::vector<SceneEntry> scenes, const std::string& shard) {
   if (shard.empty()) return scenes;
   const std::size_t slash = shard.find('/');
-  const int part = number_of(shard.substr(0, slash));
-  const int parts = slash == std::string::npos ? -1 : number_of(shard.substr(slash + 1));
+  const int part = layouts::number_of(shard.substr(0, slash));
+  const int parts = slash == std::string::npos ? -1 : layouts::number_of(shard.substr(slash + 1));
   if (part < 1 || parts < part)
     throw std::invalid_argument("--shard " + shard + ": expected I/N with 1 <= I <= N");
   std::erase_if(scenes, [&](const SceneEntry& scene) {

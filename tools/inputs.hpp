@@ -32,7 +32,7 @@ struct SceneEntry {
 /// and im_id from that order. Throws std::invalid_argument naming an argument that matches nothing.
 std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments);
 
-/// The scans of a data set in any layout that tools/evaluate/dataset.hpp knows; of images, with
+/// The scans of a data set in any layout of nodes/layouts; of images, with
 /// their cameras. Throws std::invalid_argument naming what is missing.
 std::vector<SceneEntry> list_dataset_scenes(const std::string& dataset, const std::string& split);
 

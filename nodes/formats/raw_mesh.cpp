@@ -59,6 +59,7 @@ FaceMatrix keep_faces(const RawMesh& mesh, const std::vector<std::uint32_t>& new
 }  // namespace
 
 void RawMesh::add_polygon(std::span<const std::uint32_t> corners) {
+  if (corners.size() > 3) fans.push_back({faces.size(), corners.size() - 2});
   for (std::size_t i = 2; i < corners.size(); ++i)
     faces.push_back({corners[0], corners[i - 1], corners[i]});
 }

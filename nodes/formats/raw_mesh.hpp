@@ -15,10 +15,17 @@ namespace posevote::formats {
 
 using Triple = std::array<double, 3>;
 
+/// The triangles of a polygon of four corners or more, all from its first corner.
+struct Fan {
+  std::size_t first = 0;  ///< of RawMesh::faces
+  std::size_t count = 0;  ///< of them
+};
+
 struct RawMesh {
   std::vector<Triple> points;
   std::vector<Triple> normals;  ///< one a point, or none
   std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<Fan> fans;  ///< which of the faces are one polygon
   Triple viewpoint{};
 
   /// Adds a polygon as a fan of triangles. Fewer than three corners are no face and add nothing.

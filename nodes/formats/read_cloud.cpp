@@ -7,6 +7,7 @@
 #include "nodes/formats/file_bytes.hpp"
 #include "nodes/formats/format.hpp"
 #include "nodes/formats/raw_mesh.hpp"
+#include "nodes/formats/triangulate.hpp"
 
 namespace posevote::formats {
 namespace {
@@ -24,7 +25,9 @@ Read find_reader(const std::filesystem::path& path, Wanted wanted) {
 
 Cloud read_cloud(const std::filesystem::path& path, double metres_per_unit) {
   const FileBytes bytes = read_file(path);
-  return to_cloud(find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view()), metres_per_unit);
+  RawMesh mesh = find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view());
+  mend_concave(mesh);
+  return to_cloud(mesh, metres_per_unit);
 }
 
 DepthImage read_depth_image(const std::filesystem::path& path) {

@@ -51,7 +51,7 @@ std::vector<Variant> all_variants() {
 struct Bench {
   std::string dataset, config;
   fs::path out;
-  GroundTruth truth;
+  layouts::GroundTruth truth;
 };
 
 /// What one variant did.
@@ -74,19 +74,19 @@ double inlier_distance(const Bench& bench, const Variant& variant) {
 }
 
 /// Whether some instance of the object in the image carries the model's point to the scene's.
-bool is_inlier(const Bench& bench, const ImageKey& image, const std::vector<double>& row,
+bool is_inlier(const Bench& bench, const layouts::ImageKey& image, const std::vector<double>& row,
                double distance) {
   const Eigen::Vector3d scene(row[3], row[4], row[5]), model(row[9], row[10], row[11]);
   return std::any_of(bench.truth.instances.begin(), bench.truth.instances.end(),
-                     [&](const TrueInstance& truth) {
+                     [&](const layouts::TrueInstance& truth) {
                        return truth.scene_id == image.first && truth.im_id == image.second &&
                               truth.obj_id == static_cast<int>(row[0]) &&
                               (truth.T_scene_model * model - scene).norm() <= distance;
                      });
 }
 
-void count_inliers(const Bench& bench, const fs::path& csv, const ImageKey& image, double distance,
-                   Row& result) {
+void count_inliers(const Bench& bench, const fs::path& csv, const layouts::ImageKey& image,
+                   double distance, Row& result) {
   std::ifstream stream(csv);
   std::string line;
   if (!std::getline(stream, line)) throw std::runtime_error(csv.string() + ": cannot be read");
@@ -109,7 +109,7 @@ void take_frame(const Bench& bench, const nlohmann::json& frame, Row& result) {
     else if (stage == "match_features")
       result.match += seconds.get<double>();
   for (const nlohmann::json& found : frame.at("detections"))
-    for (const TrueInstance& truth : bench.truth.instances) {
+    for (const layouts::TrueInstance& truth : bench.truth.instances) {
       if (truth.scene_id != frame.at("scene_id") || truth.im_id != frame.at("im_id") ||
           truth.obj_id != found.at("obj_id"))
         continue;
@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
   try {
     spdlog::set_level(spdlog::level::warn);
     const posevote::Bench bench{arguments[0], arguments[2], arguments[1],
-                                posevote::read_ground_truth(arguments[0], "test")};
+                                posevote::layouts::read_ground_truth(arguments[0], "test")};
     std::fputs(posevote::compare(bench, {arguments.begin() + 3, arguments.end()}).c_str(), stdout);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

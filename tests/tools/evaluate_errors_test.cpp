@@ -12,8 +12,8 @@ using namespace posevote;
 namespace {
 
 /// A box around the origin [m], two triangles a side.
-TrueObject box(double x, double y, double z) {
-  TrueObject object;
+layouts::TrueObject box(double x, double y, double z) {
+  layouts::TrueObject object;
   object.points.resize(8, 3);
   for (int i = 0; i < 8; ++i)
     object.points.row(i) =
@@ -41,7 +41,7 @@ RangeImage empty_image(int width, int height, float range) {
 }  // namespace
 
 TEST_CASE("a shift is the same for every error of points", "[evaluate]") {
-  const TrueObject object = box(0.2, 0.1, 0.05);
+  const layouts::TrueObject object = box(0.2, 0.1, 0.05);
   const PoseMeter meter(object);
   const Eigen::Isometry3d a = at(0, 0, 1), b = at(0.003, -0.004, 1);
   CHECK(meter.center(a, b) == Approx(0.005));
@@ -55,7 +55,7 @@ TEST_CASE("a shift is the same for every error of points", "[evaluate]") {
 }
 
 TEST_CASE("a turn by a symmetry is no error, any other is", "[evaluate]") {
-  TrueObject object = box(0.2, 0.1, 0.05);
+  layouts::TrueObject object = box(0.2, 0.1, 0.05);
   object.symmetries.push_back(at(0, 0, 0, M_PI));
   const PoseMeter meter(object);
   CHECK(meter.mssd(at(0, 0, 1), at(0, 0, 1, M_PI)) == Approx(0).margin(1e-7));
@@ -67,7 +67,7 @@ TEST_CASE("a turn by a symmetry is no error, any other is", "[evaluate]") {
 }
 
 TEST_CASE("ADI is the mean distance to the closest point, by brute force", "[evaluate]") {
-  TrueObject object = box(0.2, 0.1, 0.05);
+  layouts::TrueObject object = box(0.2, 0.1, 0.05);
   object.symmetries.push_back(at(0, 0, 0, M_PI));
   object.points.resize(900, 3);
   object.points.setRandom();
@@ -85,7 +85,7 @@ TEST_CASE("ADI is the mean distance to the closest point, by brute force", "[eva
 }
 
 TEST_CASE("a continuous symmetry turns in 315 steps about its own axis", "[evaluate]") {
-  TrueObject object = box(0.2, 0.2, 0.05);
+  layouts::TrueObject object = box(0.2, 0.2, 0.05);
   object.axes.push_back({Eigen::Vector3d::UnitZ(), Eigen::Vector3d(0.01, 0, 0)});
   CHECK(symmetry_steps(object).size() == 315);
   const PoseMeter meter(object);
@@ -98,7 +98,7 @@ TEST_CASE("a continuous symmetry turns in 315 steps about its own axis", "[evalu
 }
 
 TEST_CASE("MSSD is the maximum over all points, not only over some", "[evaluate]") {
-  TrueObject object = box(0.2, 0.1, 0.05);
+  layouts::TrueObject object = box(0.2, 0.1, 0.05);
   PointMatrix dense(20008, 3);
   dense.topRows(20000).setRandom();
   dense.topRows(20000) *= 0.02F;
@@ -111,7 +111,7 @@ TEST_CASE("MSSD is the maximum over all points, not only over some", "[evaluate]
 
 TEST_CASE("the model is seen where the camera sees it", "[evaluate]") {
   // The front, 0.1 m wide at depth 1: 50 pixels each way, from 25 to 75.
-  const TrueObject object = box(0.1, 0.1, 0.2);
+  const layouts::TrueObject object = box(0.1, 0.1, 0.2);
   const RangeImage image = render(object, at(0, 0, 1.1), kCamera, 100, 100);
   CHECK(image.at(50, 50) == Approx(1.0));
   CHECK(image.at(30, 70) == Approx(std::sqrt(1 + 2 * 0.04 * 0.04)));

@@ -51,8 +51,8 @@ class Set : public TemporaryFolder {
   }
   Evaluation evaluate(const std::string& rows, EvaluateOptions options) const {
     options.results = write("results.csv", kHeader + rows);
-    return posevote::evaluate(read_ground_truth(path(), "test"), read_results_csv(options.results),
-                              options);
+    return posevote::evaluate(layouts::read_ground_truth(path(), "test"),
+                              read_results_csv(options.results), options);
   }
 };
 

@@ -8,9 +8,9 @@
 #include "graph/problem.hpp"
 #include "nodes/formats/depth_image.hpp"
 #include "nodes/formats/read_cloud.hpp"
-#include "nodes/geometry/nearest_index.hpp"
+#include "nodes/layouts/ground_truth.hpp"
+#include "nodes/prepare/grid.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/evaluate/ground_truth.hpp"
 #include "tools/simulate/spec.hpp"
 
 using namespace posevote;
@@ -55,14 +55,13 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
     CHECK(files.contains(name));
   CHECK(files.size() == 11);
 
-  const GroundTruth truth = read_ground_truth(folder / "a", "test");
+  const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "a", "test");
   REQUIRE(truth.instances.size() == 3);
-  for (const TrueInstance& instance : truth.instances) {
+  for (const layouts::TrueInstance& instance : truth.instances) {
     const Cloud scan = formats::read_cloud(
         folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
-    const geometry::NearestIndex surface(scan.points, 0.01F);
-    const std::vector<char> none_hidden(static_cast<std::size_t>(scan.points.rows()), 0);
-    const TrueObject& object = truth.objects.at(instance.obj_id);
+    const PointGrid grid(scan.points, 0.005F);
+    const layouts::TrueObject& object = truth.objects.at(instance.obj_id);
     std::vector<float> distances;
     for (Eigen::Index i = 0; i < object.points.rows(); i += 3) {
       const Eigen::Vector3d point =

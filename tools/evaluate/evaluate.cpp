@@ -11,10 +11,10 @@
 namespace posevote {
 namespace {
 
-using Cases = std::map<ImageKey, std::map<int, Case>>;
+using Cases = std::map<layouts::ImageKey, std::map<int, Case>>;
 
 /// Which instances count: by visibility, or the most visible of a target.
-void choose_counted(const GroundTruth& truth, Evaluation& evaluation) {
+void choose_counted(const layouts::GroundTruth& truth, Evaluation& evaluation) {
   std::map<std::tuple<int, int, int>, std::vector<InstanceResult*>> groups;
   for (InstanceResult& result : evaluation.instances) {
     result.counted = result.visible.value_or(1) >= evaluation.options.least_visible;
@@ -32,8 +32,8 @@ void choose_counted(const GroundTruth& truth, Evaluation& evaluation) {
   }
 }
 
-Cases group_instances(const GroundTruth& truth, Evaluation& evaluation) {
-  for (const TrueInstance& instance : truth.instances) {
+Cases group_instances(const layouts::GroundTruth& truth, Evaluation& evaluation) {
+  for (const layouts::TrueInstance& instance : truth.instances) {
     InstanceResult result;
     result.scene_id = instance.scene_id, result.im_id = instance.im_id;
     result.obj_id = instance.obj_id;
@@ -44,7 +44,7 @@ Cases group_instances(const GroundTruth& truth, Evaluation& evaluation) {
   choose_counted(truth, evaluation);
   Cases cases;
   for (std::size_t i = 0; i < truth.instances.size(); ++i) {
-    const TrueInstance& instance = truth.instances[i];
+    const layouts::TrueInstance& instance = truth.instances[i];
     Case& group = cases[{instance.scene_id, instance.im_id}][instance.obj_id];
     group.instances.push_back(&instance);
     group.results.push_back(&evaluation.instances[i]);
@@ -53,11 +53,12 @@ Cases group_instances(const GroundTruth& truth, Evaluation& evaluation) {
 }
 
 /// Refuses a row that cannot be of this data set; false: of an image that is not judged.
-bool check_row(const FoundInstance& found, const GroundTruth& truth, const std::string& file) {
+bool check_row(const FoundInstance& found, const layouts::GroundTruth& truth,
+               const std::string& file) {
   const auto refuse = [&](const std::string& what) {
     throw std::runtime_error(file + ":" + std::to_string(found.line) + ": " + what);
   };
-  const ImageKey key{found.scene_id, found.im_id};
+  const layouts::ImageKey key{found.scene_id, found.im_id};
   if (truth.left_out.contains(key)) return false;
   if (!truth.images.contains(key))
     refuse("scene_id " + std::to_string(found.scene_id) + ", im_id " + std::to_string(found.im_id) +
@@ -67,7 +68,7 @@ bool check_row(const FoundInstance& found, const GroundTruth& truth, const std::
   return true;
 }
 
-void add_found(const std::vector<FoundInstance>& rows, const GroundTruth& truth,
+void add_found(const std::vector<FoundInstance>& rows, const layouts::GroundTruth& truth,
                const EvaluateOptions& options, Cases& cases) {
   for (const FoundInstance& found : rows)
     if (check_row(found, truth, options.results))
@@ -132,7 +133,7 @@ void summarise_all(const std::vector<std::vector<CaseResult>>& images, Evaluatio
 
 }  // namespace
 
-Evaluation evaluate(const GroundTruth& truth, const std::vector<FoundInstance>& found,
+Evaluation evaluate(const layouts::GroundTruth& truth, const std::vector<FoundInstance>& found,
                     const EvaluateOptions& options) {
   Evaluation evaluation;
   evaluation.options = options;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "nodes/layouts/ground_truth.hpp"
 #include "tools/evaluate/curve.hpp"
-#include "tools/evaluate/ground_truth.hpp"
 #include "tools/evaluate/results_csv.hpp"
 #include "tools/evaluate/rules.hpp"
 
@@ -67,7 +67,7 @@ struct Evaluation {
 /// instance that is not counted is neither. Of BOP's average recalls, as many detections are judged
 /// as instances count, the best first. Throws std::runtime_error naming a row (line) whose image or
 /// object is not in the data set.
-Evaluation evaluate(const GroundTruth& truth, const std::vector<FoundInstance>& found,
+Evaluation evaluate(const layouts::GroundTruth& truth, const std::vector<FoundInstance>& found,
                     const EvaluateOptions& options = {});
 
 /// Text: with `instances`, a line for each; and a summary that names the rule beside every number.

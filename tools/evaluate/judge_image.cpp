@@ -15,7 +15,7 @@ using Errors = std::vector<std::vector<PairErrors>>;  ///< [found][instance]
 /// Measures pairs in one image; loads its depth image once, where a rule needs it.
 class ImageMeter {
  public:
-  ImageMeter(const TrueImage& image, const std::vector<Rule>& rules) : image_(image) {
+  ImageMeter(const layouts::TrueImage& image, const std::vector<Rule>& rules) : image_(image) {
     const bool usable = image.camera && !image.depth.empty();
     for (const Rule& rule : rules) {
       needs_add_ |= rule.name.starts_with("ad");
@@ -26,17 +26,18 @@ class ImageMeter {
     if (needs_mspd_ || needs_vsd_) measured_ = read_range_image(image);
   }
 
-  bool can(const Rule& rule, const TrueObject& object) const {
+  bool can(const Rule& rule, const layouts::TrueObject& object) const {
     const bool usable = image_.camera && !image_.depth.empty();
     if (rule.needs == Needs::depth)
       return usable && (object.faces.rows() > 0 || object.points.rows() == 0);
     return rule.needs == Needs::poses || usable;
   }
 
-  Errors measure(const Case& group, const TrueObject& object, const PoseMeter& meter) const {
+  Errors measure(const Case& group, const layouts::TrueObject& object,
+                 const PoseMeter& meter) const {
     std::vector<RangeImage> of_true, of_found;
     if (needs_vsd_ && object.faces.rows() > 0) {
-      for (const TrueInstance* instance : group.instances)
+      for (const layouts::TrueInstance* instance : group.instances)
         of_true.push_back(seen(object, instance->T_scene_model));
       for (const FoundInstance* found : group.found)
         of_found.push_back(seen(object, found->T_scene_model));
@@ -52,7 +53,7 @@ class ImageMeter {
   }
 
  private:
-  RangeImage seen(const TrueObject& object, const Eigen::Isometry3d& T_scene_model) const {
+  RangeImage seen(const layouts::TrueObject& object, const Eigen::Isometry3d& T_scene_model) const {
     return render(object, T_scene_model, *image_.camera, measured_.width, measured_.height);
   }
 
@@ -68,8 +69,8 @@ class ImageMeter {
     return errors;
   }
 
-  void add_vsd(const TrueObject& object, const RangeImage& of_true, const RangeImage& of_found,
-               PairErrors& errors) const {
+  void add_vsd(const layouts::TrueObject& object, const RangeImage& of_true,
+               const RangeImage& of_found, PairErrors& errors) const {
     std::vector<double> taus;
     for (int i = 1; i <= 10; ++i) taus.push_back(0.05 * i * object.diameter);
     errors.vsd_steps =
@@ -78,7 +79,7 @@ class ImageMeter {
         surface_discrepancy(measured_, of_true, of_found, kDelta, Holes::hidden, {kTau2018})[0];
   }
 
-  const TrueImage& image_;
+  const layouts::TrueImage& image_;
   bool needs_add_ = false, needs_mssd_ = false, needs_mspd_ = false, needs_vsd_ = false;
   RangeImage measured_;
 };
@@ -160,14 +161,14 @@ std::vector<Verdict> apply(const Rule& rule, std::size_t place, const Case& grou
 
 }  // namespace
 
-std::vector<CaseResult> judge_image(const GroundTruth& truth, const ImageKey& key,
+std::vector<CaseResult> judge_image(const layouts::GroundTruth& truth, const layouts::ImageKey& key,
                                     std::map<int, Case>& cases,
                                     const std::map<int, PoseMeter>& meters,
                                     const std::vector<Rule>& rules, double min_score) {
   const ImageMeter image(truth.images.at(key), rules);
   std::vector<CaseResult> results;
   for (auto& [obj_id, group] : cases) {
-    const TrueObject& object = truth.objects.at(obj_id);
+    const layouts::TrueObject& object = truth.objects.at(obj_id);
     CaseResult result{obj_id, {}, {}};
     Errors errors(group.found.size());
     if (!group.instances.empty()) errors = image.measure(group, object, meters.at(obj_id));

@@ -15,7 +15,7 @@ inline constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 /// An object in an image.
 struct Case {
-  std::vector<const TrueInstance*> instances;
+  std::vector<const layouts::TrueInstance*> instances;
   std::vector<InstanceResult*> results;     ///< of these instances, to be filled in
   std::vector<const FoundInstance*> found;  ///< best score first
 };
@@ -28,7 +28,7 @@ struct CaseResult {
 };
 
 /// Fills in the cases' results. `cases` by obj_id.
-std::vector<CaseResult> judge_image(const GroundTruth& truth, const ImageKey& key,
+std::vector<CaseResult> judge_image(const layouts::GroundTruth& truth, const layouts::ImageKey& key,
                                     std::map<int, Case>& cases,
                                     const std::map<int, PoseMeter>& meters,
                                     const std::vector<Rule>& rules, double min_score);

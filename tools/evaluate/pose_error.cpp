@@ -6,8 +6,8 @@
 #include <nanoflann.hpp>
 #include <numeric>
 
-#include "tools/evaluate/extreme_points.hpp"
-#include "tools/evaluate/rotation.hpp"
+#include "nodes/geometry/extreme_points.hpp"
+#include "nodes/geometry/rotation.hpp"
 
 namespace posevote {
 
@@ -59,10 +59,10 @@ double farthest_in_image(const Eigen::Matrix3Xd& points, const Eigen::Isometry3d
 
 }  // namespace
 
-std::vector<Eigen::Isometry3d> symmetry_steps(const TrueObject& object) {
+std::vector<Eigen::Isometry3d> symmetry_steps(const layouts::TrueObject& object) {
   std::vector<Eigen::Isometry3d> turns{Eigen::Isometry3d::Identity()};
   const int count = static_cast<int>(std::ceil(M_PI / 0.01));
-  for (const SymmetryAxis& axis : object.axes)
+  for (const layouts::SymmetryAxis& axis : object.axes)
     for (int i = 1; i < count; ++i)
       turns.push_back(Eigen::Translation3d(axis.offset) *
                       Eigen::AngleAxisd(2 * M_PI * i / count, axis.direction) *
@@ -73,10 +73,11 @@ std::vector<Eigen::Isometry3d> symmetry_steps(const TrueObject& object) {
   return steps;
 }
 
-PoseMeter::PoseMeter(const TrueObject& object)
+PoseMeter::PoseMeter(const layouts::TrueObject& object)
     : object_(&object),
       sample_(sample_of(object.points, kMostPoints)),
-      extreme_(extreme_points(object.points)),
+      few_(sample_of(object.points, kFewPoints)),
+      extreme_(geometry::extreme_points(object.points)),
       all_(object.points.transpose().cast<double>()),
       steps_(symmetry_steps(object)),
       tree_(std::make_shared<const Tree>(object.points)) {}
@@ -90,8 +91,9 @@ double PoseMeter::rotation(const Eigen::Isometry3d& T_true,
   double least = kBeyond;
   for (const Eigen::Isometry3d& symmetry : object_->symmetries) {
     const Eigen::Matrix3d R = T_true.linear() * symmetry.linear();
-    if (object_->axes.empty()) least = std::min(least, angle_between(R, T_found.linear()));
-    for (const SymmetryAxis& axis : object_->axes) {
+    if (object_->axes.empty())
+      least = std::min(least, geometry::angle_between(R, T_found.linear()));
+    for (const layouts::SymmetryAxis& axis : object_->axes) {
       const Eigen::Vector3d a = R * axis.direction, b = T_found.linear() * axis.direction;
       least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
     }

@@ -5,7 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "tools/evaluate/ground_truth.hpp"
+#include "nodes/layouts/ground_truth.hpp"
+#include "nodes/prepare/grid.hpp"
 
 namespace posevote {
 
@@ -16,12 +17,12 @@ inline constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 /// The object turned onto itself: discrete symmetries times continuous ones, these in 315 steps (no
 /// point travels more than 1 % of the diameter in one, as in BOP). The identity is among them.
-std::vector<Eigen::Isometry3d> symmetry_steps(const TrueObject& object);
+std::vector<Eigen::Isometry3d> symmetry_steps(const layouts::TrueObject& object);
 
 /// Measures the poses of one object. Needs the object to live as long. Threads may share it.
 class PoseMeter {
  public:
-  explicit PoseMeter(const TrueObject& object);
+  explicit PoseMeter(const layouts::TrueObject& object);
 
   /// Distance of the model centres [m].
   double center(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
@@ -44,8 +45,8 @@ class PoseMeter {
   template <class Measure>
   double least_over_symmetries(const Measure& measure) const;
 
-  const TrueObject* object_;
-  Eigen::Matrix3Xd sample_, extreme_, all_;
+  const layouts::TrueObject* object_;
+  Eigen::Matrix3Xd sample_, few_, extreme_, all_;
   std::vector<Eigen::Isometry3d> steps_;
   std::shared_ptr<const Tree> tree_;
 };

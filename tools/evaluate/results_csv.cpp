@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "graph/schema.hpp"
-#include "tools/evaluate/rotation.hpp"
+#include "nodes/geometry/rotation.hpp"
 #include "tools/text.hpp"
 
 namespace posevote {
@@ -48,7 +48,7 @@ FoundInstance parse_row(const std::string& text) {
   found.score = parse<double>(fields[3], "score");
   const std::array<double, 3> t = parse_list<3>(fields[5], "t");
   found.T_scene_model =
-      make_pose(parse_list<9>(fields[4], "R"), Eigen::Vector3d(t[0], t[1], t[2]) * 0.001);
+      geometry::make_pose(parse_list<9>(fields[4], "R"), Eigen::Vector3d(t[0], t[1], t[2]) * 0.001);
   parse<double>(fields[6], "time");
   return found;
 }

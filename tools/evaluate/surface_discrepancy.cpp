@@ -78,7 +78,7 @@ void draw(const Corner& a, const Corner& b, const Corner& c, RangeImage& image) 
 
 }  // namespace
 
-RangeImage read_range_image(const TrueImage& image) {
+RangeImage read_range_image(const layouts::TrueImage& image) {
   try {
     const formats::DepthImage depth = formats::read_depth_image(image.depth);
     RangeImage ranges{0, 0, static_cast<int>(depth.width), static_cast<int>(depth.height), {}};
@@ -94,7 +94,7 @@ RangeImage read_range_image(const TrueImage& image) {
   }
 }
 
-RangeImage render(const TrueObject& object, const Eigen::Isometry3d& T_camera_model,
+RangeImage render(const layouts::TrueObject& object, const Eigen::Isometry3d& T_camera_model,
                   const Camera& camera, int width, int height) {
   const std::vector<Corner> corners = project(object.points, T_camera_model, camera);
   RangeImage image = window_of(corners, width, height);

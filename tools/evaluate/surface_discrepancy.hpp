@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "tools/evaluate/ground_truth.hpp"
+#include "nodes/layouts/ground_truth.hpp"
 
 namespace posevote {
 
@@ -21,11 +21,11 @@ struct RangeImage {
 };
 
 /// The measured ranges. Throws std::runtime_error naming the file.
-RangeImage read_range_image(const TrueImage& image);
+RangeImage read_range_image(const layouts::TrueImage& image);
 
 /// What a camera with an image of that size sees of the model (z-buffer; integer coordinates are
 /// pixel centres). Triangles that reach behind the camera are left out.
-RangeImage render(const TrueObject& object, const Eigen::Isometry3d& T_camera_model,
+RangeImage render(const layouts::TrueObject& object, const Eigen::Isometry3d& T_camera_model,
                   const Camera& camera, int width, int height);
 
 enum class Holes { visible, hidden };  ///< pixels without a measurement: BOP 2019, BOP 2018

@@ -79,11 +79,11 @@ fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
 
 /// Leaves the images that the run does not see out of the truth.
 void keep_shard(const fs::path& dataset, const std::string& split, const std::string& shard,
-                GroundTruth& truth) {
-  std::set<ImageKey> seen;
+                layouts::GroundTruth& truth) {
+  std::set<layouts::ImageKey> seen;
   for (const SceneEntry& scene : take_shard(list_dataset_scenes(dataset.string(), split), shard))
     seen.insert({scene.file.scene_id, scene.file.im_id});
-  std::erase_if(truth.instances, [&](const TrueInstance& instance) {
+  std::erase_if(truth.instances, [&](const layouts::TrueInstance& instance) {
     return !seen.contains({instance.scene_id, instance.im_id});
   });
 }
@@ -244,7 +244,7 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
   const std::string split = "test";
   const bool replica = command.dataset.empty();
   const std::string shard = replica ? "" : "1/" + std::to_string(step_of(command));
-  GroundTruth truth = read_ground_truth(dataset, split);
+  layouts::GroundTruth truth = layouts::read_ground_truth(dataset, split);
   keep_shard(dataset, split, shard, truth);
 
   int worst = 0;

@@ -14,11 +14,11 @@
 
 #include "nodes/formats/read_cloud.hpp"
 #include "nodes/formats/write_ply.hpp"
-#include "nodes/geometry/normals.hpp"
-#include "nodes/geometry/winding.hpp"
+#include "nodes/geometry/rotation.hpp"
+#include "nodes/prepare/normals.hpp"
+#include "nodes/prepare/winding.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/results_csv.hpp"
-#include "tools/evaluate/rotation.hpp"
 #include "tools/experiment/correspondence_quality.hpp"
 #include "tools/experiment/experiment.hpp"
 #include "tools/experiment/noisy_copies.hpp"
@@ -125,8 +125,8 @@ std::vector<Errors> errors_of(const std::vector<NoisyCopy>& copies, const Eigen:
     const auto i = static_cast<std::size_t>(found.im_id);
     const Eigen::Isometry3d& truth = copies.at(i).T_scene_model;
     errors[i].mm = 1000 * (found.T_scene_model * center - truth * center).norm();
-    errors[i].deg =
-        angle_between(found.T_scene_model.linear(), truth.linear()) * 180 / std::numbers::pi;
+    errors[i].deg = geometry::angle_between(found.T_scene_model.linear(), truth.linear()) * 180 /
+                    std::numbers::pi;
   }
   return errors;
 }

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "nodes/formats/write_ply.hpp"
-#include "tools/evaluate/extreme_points.hpp"
+#include "nodes/geometry/extreme_points.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -86,7 +86,7 @@ BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
 
 void BopWriter::add_model(int obj_id, const Cloud& mesh, bool is_round) {
   formats::write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
-  ordered_json entry{{"diameter", rounded(diameter_of(mesh.points) * 1000)}};
+  ordered_json entry{{"diameter", rounded(geometry::diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f size = mesh.points.colwise().maxCoeff() - low;
   const std::string axes[3] = {"x", "y", "z"};

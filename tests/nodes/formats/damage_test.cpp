@@ -7,6 +7,7 @@
 #include <random>
 
 #include "nodes/formats/raw_mesh.hpp"
+#include "nodes/formats/triangulate.hpp"
 #include "tests/nodes/formats/support.hpp"
 
 using namespace posevote;
@@ -44,7 +45,9 @@ struct Sample {
 
 std::function<void(std::string_view)> mesh_check(const std::string& ending) {
   return [ending](std::string_view bytes) {
-    const Cloud cloud = formats::to_cloud(read_mesh(ending, bytes), 0.001);
+    RawMesh mesh = read_mesh(ending, bytes);
+    mend_concave(mesh);
+    const Cloud cloud = to_cloud(mesh, 0.001);
     REQUIRE(is_valid(cloud));
   };
 }
@@ -121,6 +124,8 @@ std::vector<Sample> samples() {
           {"compressed PCD", compressed_pcd(), mesh_check(".pcd")},
           {"OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf -3 -2 -1\n",
            mesh_check(".obj")},
+          {"OBJ polygon", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 2 3 4 5 6 1\n",
+           mesh_check(".obj")},
           {"ascii STL", ascii_stl(), mesh_check(".stl")},
           {"binary STL", binary_stl(), mesh_check(".stl")},
           {"OFF", "OFF\n4 2 0\n" + rows(4, 3) + faces, mesh_check(".off")},
@@ -187,7 +192,7 @@ TEST_CASE("Damage: files cut off at every byte", "[load][damage]") {
     for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
       INFO("cut to " << size);
       const bool taken = survives(sample, std::string_view(sample.bytes).substr(0, size));
-      if (size < last_line && sample.name != "OBJ") CHECK_FALSE(taken);
+      if (size < last_line && !sample.name.starts_with("OBJ")) CHECK_FALSE(taken);
     }
   }
 }

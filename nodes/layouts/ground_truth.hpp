@@ -15,7 +15,7 @@
 #include "nodes/data/cloud.hpp"
 #include "nodes/data/files.hpp"
 
-namespace posevote {
+namespace posevote::layouts {
 
 struct TrueInstance {
   int scene_id = 0, im_id = 0, obj_id = 0;
@@ -66,4 +66,4 @@ struct GroundTruth {
 GroundTruth read_ground_truth(const std::filesystem::path& dataset, const std::string& split,
                               const std::string& targets = "");
 
-}  // namespace posevote
+}  // namespace posevote::layouts

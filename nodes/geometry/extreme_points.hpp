@@ -5,7 +5,7 @@
 
 #include "nodes/data/cloud.hpp"
 
-namespace posevote {
+namespace posevote::geometry {
 
 /// The outermost points in some 500 directions, each once: nearly the corners of the convex hull,
 /// where the largest distances are.
@@ -14,4 +14,4 @@ Eigen::Matrix3Xd extreme_points(const PointMatrix& points);
 /// The largest distance between two of them [m].
 double diameter_of(const PointMatrix& points);
 
-}  // namespace posevote
+}  // namespace posevote::geometry

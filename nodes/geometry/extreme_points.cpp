@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/evaluate/extreme_points.hpp"
+#include "nodes/geometry/extreme_points.hpp"
 
 #include <cmath>
 #include <set>
 
-namespace posevote {
+namespace posevote::geometry {
 
 Eigen::Matrix3Xd extreme_points(const PointMatrix& points) {
   constexpr int kDirections = 500;
@@ -33,4 +33,4 @@ double diameter_of(const PointMatrix& points) {
   return most;
 }
 
-}  // namespace posevote
+}  // namespace posevote::geometry

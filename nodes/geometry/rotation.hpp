@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-namespace posevote {
+namespace posevote::geometry {
 
 /// Makes a pose of 9 numbers, row by row, and a translation. Throws std::invalid_argument where
 /// the numbers are not finite or no rotation (to 1e-2: published files are rounded); an equal or
@@ -15,4 +15,4 @@ Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
 /// Angle of the rotation that carries a into b, in [0, pi]; also right for tiny angles.
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 
-}  // namespace posevote
+}  // namespace posevote::geometry

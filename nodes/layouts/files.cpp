@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/evaluate/dataset.hpp"
+#include "nodes/layouts/files.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,24 +8,10 @@
 #include <stdexcept>
 
 #include "graph/schema.hpp"
-#include "tools/evaluate/extreme_points.hpp"
 
-namespace posevote {
+namespace posevote::layouts {
 
 namespace fs = std::filesystem;
-
-const DatasetReader& find_reader(const fs::path& dataset, const std::string& split) {
-  if (!fs::is_directory(dataset)) dataset::fail(dataset, "no such folder");
-  const DatasetReader* const readers[] = {&kBopReader, &kSixdReader, &kUwaReader};
-  for (const DatasetReader* reader : readers)
-    if (reader->recognises(dataset, split)) return *reader;
-  std::string text = "is no data set with a split '" + split + "'; expected one of";
-  for (const DatasetReader* reader : readers)
-    text += std::string("\n  ") + reader->layout + ": " + reader->expected;
-  dataset::fail(dataset, text);
-}
-
-namespace dataset {
 
 void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -80,13 +66,4 @@ int whole(const nlohmann::json& entry, const std::string& name, int least) {
   return value.get<int>();
 }
 
-void measure_object(TrueObject& object) {
-  if (object.points.rows() == 0) return;
-  const Eigen::RowVector3f low = object.points.colwise().minCoeff();
-  const Eigen::RowVector3f high = object.points.colwise().maxCoeff();
-  object.center = (0.5F * (low + high)).transpose().cast<double>();
-  object.diameter = diameter_of(object.points);
-}
-
-}  // namespace dataset
-}  // namespace posevote
+}  // namespace posevote::layouts

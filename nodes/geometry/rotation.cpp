@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/evaluate/rotation.hpp"
+#include "nodes/geometry/rotation.hpp"
 
 #include <stdexcept>
 
-namespace posevote {
+namespace posevote::geometry {
 
 Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
                             const Eigen::Vector3d& translation) {
@@ -27,4 +27,4 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
 }
 
-}  // namespace posevote
+}  // namespace posevote::geometry

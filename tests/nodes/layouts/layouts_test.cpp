@@ -3,24 +3,26 @@
 #include <catch2/catch.hpp>
 
 #include "nodes/formats/write_ply.hpp"
+#include "nodes/layouts/files.hpp"
+#include "nodes/layouts/layout.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/evaluate/dataset.hpp"
-#include "tools/inputs.hpp"
 
 using namespace posevote;
+using namespace posevote::layouts;
 using Catch::Contains;
 using posevote::test::TemporaryFolder;
+namespace fs = std::filesystem;
 
 namespace {
 
 constexpr const char* kShift = "1 0 0 10\n0 1 0 20\n0 0 1 900\n0 0 0 1\n";
 
-void write_box(const std::filesystem::path& file) {
+void write_box(const fs::path& file) {
   Cloud bar;
   bar.points.resize(8, 3);
   for (int i = 0; i < 8; ++i)
     bar.points.row(i) << (i & 1 ? 30.F : 0.F), (i & 2 ? 40.F : 0.F), (i & 4 ? 120.F : 0.F);
-  std::filesystem::create_directories(file.parent_path());
+  fs::create_directories(file.parent_path());
   formats::write_ply(file, bar);
 }
 
@@ -31,6 +33,15 @@ std::string message_of(const TemporaryFolder& folder, const std::string& targets
     return error.what();
   }
   return "accepted";
+}
+
+std::vector<SceneFile> scenes_of(const TemporaryFolder& folder) {
+  return find_layout(folder.path(), "test").scenes(folder.path(), "test");
+}
+
+/// By obj_id, as `run` numbers them.
+std::map<int, fs::path> models_of(const TemporaryFolder& folder) {
+  return number_models(find_layout(folder.path(), "test").models(folder.path()));
 }
 
 void write_sixd(const TemporaryFolder& folder) {
@@ -60,7 +71,46 @@ void write_uwa(const TemporaryFolder& folder, const std::string& models, const s
   folder.write("occlusion.txt", "scene\tobject\t% occlusion\n1\tchef\t77.5\n10\ttrex\t60\n");
 }
 
+/// A layout of one file, `truth.test`: all that a layout has to do.
+const auto registered = register_layout(
+    {"Test's", "truth.test",
+     [](const fs::path& folder, const std::string&) { return fs::exists(folder / "truth.test"); },
+     [](const fs::path& folder, const std::string&) {
+       return std::vector<SceneFile>{{folder / "scan.ply", 3, 4, std::nullopt}};
+     },
+     [](const fs::path& folder) { return std::vector<fs::path>{folder / "models/chef.ply"}; },
+     [](const fs::path&, const std::string&) {
+       GroundTruth truth;
+       truth.images[{3, 4}];
+       truth.objects[1].symmetries = {Eigen::Isometry3d::Identity()};
+       truth.instances.push_back({3, 4, 1, Eigen::Isometry3d::Identity(), std::nullopt});
+       return truth;
+     }});
+
 }  // namespace
+
+TEST_CASE("a registered layout is recognised, read, and named where none fits", "[dataset]") {
+  const TemporaryFolder folder;
+  CHECK_THAT(message_of(folder),
+             Contains("is no data set with a split 'test'; expected one of\n  BOP: ") &&
+                 Contains("\n  Test's: truth.test"));
+  folder.write("truth.test", "");
+  write_box(folder / "models/chef.ply");
+  CHECK(find_layout(folder.path(), "test").name == "Test's");
+  CHECK(scenes_of(folder).at(0).im_id == 4);
+  const GroundTruth truth = read_ground_truth(folder.path(), "test");
+  CHECK(truth.objects.at(1).name == "chef");
+  CHECK(truth.objects.at(1).diameter == Approx(0.13));
+}
+
+TEST_CASE("of layouts that fit, the first by name; no two of one name", "[dataset]") {
+  const TemporaryFolder folder;
+  folder.write("truth.test", "");
+  write_sixd(folder);
+  CHECK(find_layout(folder.path(), "test").name == "SIXD 2017");
+  CHECK_THROWS_WITH(register_layout(find_layout(folder.path(), "test")),
+                    "two layouts are registered as 'SIXD 2017'");
+}
 
 TEST_CASE("SIXD 2017", "[dataset]") {
   const TemporaryFolder folder;
@@ -73,13 +123,13 @@ TEST_CASE("SIXD 2017", "[dataset]") {
   CHECK(truth.images.at({5, 7}).camera->fy == 510);
   CHECK(truth.images.at({5, 7}).camera->depth_scale == 0.1);
   CHECK(truth.objects.at(2).diameter == Approx(0.13));
-  const auto scenes = list_dataset_scenes(folder.path().string(), "test");
+  const auto scenes = scenes_of(folder);
   REQUIRE(scenes.size() == 1);
-  CHECK(scenes[0].file.scene_id == 5);
-  CHECK(scenes[0].file.im_id == 7);
-  CHECK(scenes[0].file.camera->cx == 320);
-  CHECK(scenes[0].name == "05_0007");
-  CHECK(list_models(list_dataset_models(folder.path().string(), "test"))[0].obj_id == 2);
+  CHECK(scenes[0].scene_id == 5);
+  CHECK(scenes[0].im_id == 7);
+  CHECK(scenes[0].camera->cx == 320);
+  CHECK(scenes[0].path.filename() == "0007.png");
+  CHECK(models_of(folder).at(2).filename() == "obj_02.ply");
 }
 
 TEST_CASE("UWA in folders, and all in one", "[dataset]") {
@@ -88,14 +138,13 @@ TEST_CASE("UWA in folders, and all in one", "[dataset]") {
     write_uwa(folder, flat ? "" : "models/", flat ? "" : "scenes/", flat ? "" : "ground_truth/");
     const GroundTruth truth = read_ground_truth(folder.path(), "test");
     REQUIRE(truth.instances.size() == 2);
-    const auto scenes = list_dataset_scenes(folder.path().string(), "test");
-    const ModelFiles models = list_models(list_dataset_models(folder.path().string(), "test"));
+    const auto scenes = scenes_of(folder);
+    const std::map<int, fs::path> models = models_of(folder);
     REQUIRE(scenes.size() == 3);
     REQUIRE(models.size() == 2);
     for (const TrueInstance& instance : truth.instances) {
-      const SceneFile& scene = scenes[static_cast<std::size_t>(instance.im_id)].file;
-      const ModelFile& model = models[static_cast<std::size_t>(instance.obj_id) - 1];
-      const bool is_chef = model.name == "chef";
+      const SceneFile& scene = scenes[static_cast<std::size_t>(instance.im_id)];
+      const bool is_chef = models.at(instance.obj_id).stem() == "chef";
       CHECK(scene.im_id == instance.im_id);
       CHECK(scene.path.stem() == (is_chef ? "rs1" : "rs10"));
       CHECK(*instance.visible == Approx(is_chef ? 0.225 : 0.4));
@@ -115,12 +164,12 @@ TEST_CASE("UWA: contradictions are named", "[dataset]") {
   write_uwa(folder, "models/", "scenes/", "ground_truth/");
   folder.write("ground_truth/chef-rs3.xf", kShift);
   CHECK_THAT(message_of(folder), Contains("chef-rs3.xf: there is no scene rs3.ply"));
-  std::filesystem::remove(folder / "ground_truth/chef-rs3.xf");
+  fs::remove(folder / "ground_truth/chef-rs3.xf");
   folder.write("ground_truth/chef-rs2.xf", "1 0 0\n");
   CHECK_THAT(message_of(folder), Contains("chef-rs2.xf: expected 16 numbers, number 4"));
   folder.write("ground_truth/chef-rs2.xf", "1 0 0 0 0 2 0 0 0 0 1 0 0 0 0 1");
   CHECK_THAT(message_of(folder), Contains("chef-rs2.xf: R is no rotation"));
-  std::filesystem::remove(folder / "ground_truth/chef-rs2.xf");
+  fs::remove(folder / "ground_truth/chef-rs2.xf");
   folder.write("ground_truth/notes.xf", kShift);
   CHECK_THAT(message_of(folder), Contains("notes.xf: expected a name like OBJECT-rsN.xf"));
 }
@@ -132,13 +181,12 @@ TEST_CASE("image sets: contradictions are named", "[dataset]") {
   folder.write("test/05/depth/0008.png", "");
   CHECK(message_of(folder) == "accepted");  // an image without poses is not judged
   CHECK(read_ground_truth(folder.path(), "test").left_out.contains({5, 8}));
-  CHECK_THROWS_WITH(list_dataset_scenes(folder.path().string(), "test"),
-                    Contains("info.yml: image 8: has no camera"));
-  std::filesystem::rename(folder / "test/05/depth/0007.png", folder / "test/05/depth/0009.png");
+  CHECK_THROWS_WITH(scenes_of(folder), Contains("info.yml: image 8: has no camera"));
+  fs::rename(folder / "test/05/depth/0007.png", folder / "test/05/depth/0009.png");
   write_box(folder / "models/obj_03.ply");
-  std::filesystem::remove(folder / "models/obj_02.ply");
+  fs::remove(folder / "models/obj_02.ply");
   CHECK_THAT(message_of(folder), Contains("obj_000002.ply: is missing"));
-  std::filesystem::remove(folder / "test/05/info.yml");
+  fs::remove(folder / "test/05/info.yml");
   CHECK_THAT(message_of(folder), Contains("info.yml: is missing"));
   folder.write("test/05/gt.yml", "7: [{obj_id: 2}]\n");
   CHECK_THAT(message_of(folder), Contains("gt.yml: image 7, instance 0") && Contains("cam_R_m2c"));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/evaluate/image_folders.hpp"
+#include "nodes/layouts/image_folders.hpp"
 
 #include <stdexcept>
 
-#include "tools/evaluate/rotation.hpp"
+#include "nodes/geometry/rotation.hpp"
 
-namespace posevote::dataset {
+namespace posevote::layouts {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,8 +40,8 @@ Eigen::Vector3d metres(const json& list, const std::string& name) {
 
 Eigen::Isometry3d read_symmetry(const json& list) {
   const std::vector<double> m = numbers(list, 16, "symmetries_discrete");
-  return make_pose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
-                   Eigen::Vector3d(m[3], m[7], m[11]) * kMetresPerUnit);
+  return geometry::make_pose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
+                             Eigen::Vector3d(m[3], m[7], m[11]) * kMetresPerUnit);
 }
 
 SymmetryAxis read_axis(const json& symmetry) {
@@ -74,8 +74,9 @@ TrueInstance read_instance(const json& entry) {
   const std::vector<double> r = numbers(entry.at("cam_R_m2c"), 9, "cam_R_m2c");
   TrueInstance instance;
   instance.obj_id = whole(entry, "obj_id");
-  instance.T_scene_model = make_pose({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]},
-                                     metres(entry.at("cam_t_m2c"), "cam_t_m2c"));
+  instance.T_scene_model =
+      geometry::make_pose({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]},
+                          metres(entry.at("cam_t_m2c"), "cam_t_m2c"));
   return instance;
 }
 
@@ -256,4 +257,4 @@ GroundTruth read_truth(const ImageFolders& names, const fs::path& dataset,
   return truth;
 }
 
-}  // namespace posevote::dataset
+}  // namespace posevote::layouts

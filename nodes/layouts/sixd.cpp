@@ -4,9 +4,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include "graph/schema.hpp"
-#include "tools/evaluate/image_folders.hpp"
+#include "nodes/layouts/image_folders.hpp"
 
-namespace posevote {
+namespace posevote::layouts {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,40 +35,36 @@ json to_json(const YAML::Node& node, int depth) {
 }
 
 json read_yaml(const fs::path& file) {
-  if (!fs::is_regular_file(file)) dataset::fail(file, "cannot be read: no such file?");
+  if (!fs::is_regular_file(file)) fail(file, "cannot be read: no such file?");
   try {
     json root = to_json(YAML::LoadFile(file.string()), 0);
-    if (!root.is_object()) dataset::fail(file, "is no YAML map");
+    if (!root.is_object()) fail(file, "is no YAML map");
     return root;
   } catch (const YAML::Exception& error) {
-    dataset::fail(file, error.what());
+    fail(file, error.what());
   } catch (const std::runtime_error& error) {
-    dataset::fail(file, error.what());
+    fail(file, error.what());
   }
 }
 
-constexpr dataset::ImageFolders kNames{"gt.yml", "info.yml", nullptr, "models_info.yml", read_yaml};
+constexpr ImageFolders kNames{"gt.yml", "info.yml", nullptr, "models_info.yml", read_yaml};
 
 bool recognises(const fs::path& folder, const std::string& split) {
-  return dataset::has_scene_files(kNames, folder, split) ||
+  return has_scene_files(kNames, folder, split) ||
          fs::exists(folder / "models" / kNames.models_info);
 }
 
 std::vector<SceneFile> scenes(const fs::path& folder, const std::string& split) {
-  return dataset::list_images(kNames, folder, split);
+  return list_images(kNames, folder, split);
 }
 
 GroundTruth truth(const fs::path& folder, const std::string& split) {
-  return dataset::read_truth(kNames, folder, split);
+  return read_truth(kNames, folder, split);
 }
 
+const auto registered =
+    register_layout({"SIXD 2017", "models/models_info.yml, SPLIT/NN/{depth, info.yml, gt.yml}",
+                     recognises, scenes, list_model_files, truth});
+
 }  // namespace
-
-const DatasetReader kSixdReader{"SIXD 2017",
-                                "models/models_info.yml, SPLIT/NN/{depth, info.yml, gt.yml}",
-                                recognises,
-                                scenes,
-                                dataset::list_model_files,
-                                truth};
-
-}  // namespace posevote
+}  // namespace posevote::layouts

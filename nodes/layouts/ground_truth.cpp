@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/evaluate/ground_truth.hpp"
+#include "nodes/layouts/ground_truth.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,13 +7,22 @@
 #include <nlohmann/json.hpp>
 
 #include "nodes/formats/read_cloud.hpp"
-#include "tools/evaluate/dataset.hpp"
+#include "nodes/geometry/extreme_points.hpp"
+#include "nodes/layouts/files.hpp"
+#include "nodes/layouts/layout.hpp"
 
-namespace posevote {
+namespace posevote::layouts {
 namespace {
 
 namespace fs = std::filesystem;
-using dataset::fail;
+
+/// An object that is known by its points alone.
+void measure_object(TrueObject& object) {
+  const Eigen::RowVector3f low = object.points.colwise().minCoeff();
+  const Eigen::RowVector3f high = object.points.colwise().maxCoeff();
+  object.center = (0.5F * (low + high)).transpose().cast<double>();
+  object.diameter = geometry::diameter_of(object.points);
+}
 
 /// A diameter lies between the longest side and the diagonal of the bounding box. Far from there,
 /// one of the two is in another unit, and every pose would pass or fail.
@@ -56,7 +65,7 @@ void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
     if (object.diameter > 0)
       check_diameter(object, file->second);
     else
-      dataset::measure_object(object);
+      measure_object(object);
     if (!(object.diameter > 0)) fail(file->second, "has no extent");
   }
 }
@@ -69,10 +78,10 @@ void read_targets(GroundTruth& truth, const fs::path& file) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     try {
       const nlohmann::json& entry = list[i];
-      const int scene = dataset::whole(entry, "scene_id"), image = dataset::whole(entry, "im_id"),
-                object = dataset::whole(entry, "obj_id");
+      const int scene = whole(entry, "scene_id"), image = whole(entry, "im_id"),
+                object = whole(entry, "obj_id");
       truth.targets[{scene, image, object}] =
-          entry.contains("inst_count") ? dataset::whole(entry, "inst_count", 1) : 1;
+          entry.contains("inst_count") ? whole(entry, "inst_count", 1) : 1;
     } catch (const std::exception& error) {
       fail(file, "entry " + std::to_string(i) + ": " + error.what());
     }
@@ -117,8 +126,8 @@ void check_images(const GroundTruth& truth, const fs::path& root) {
 
 GroundTruth read_ground_truth(const fs::path& dataset, const std::string& split,
                               const std::string& targets) {
-  const DatasetReader& reader = find_reader(dataset, split);
-  GroundTruth truth = reader.truth(dataset, split);
+  const Layout& layout = find_layout(dataset, split);
+  GroundTruth truth = layout.truth(dataset, split);
   const fs::path usual = dataset / "test_targets_bop19.json";
   const bool take_usual = targets.empty() && split == "test" && fs::exists(usual);
   if (take_usual || (!targets.empty() && targets != "none")) {
@@ -126,8 +135,8 @@ GroundTruth read_ground_truth(const fs::path& dataset, const std::string& split,
     keep_targets(truth);
   }
   check_images(truth, dataset / split);
-  read_models(dataset::number_models(reader.models(dataset)), dataset, truth);
+  read_models(number_models(layout.models(dataset)), dataset, truth);
   return truth;
 }
 
-}  // namespace posevote
+}  // namespace posevote::layouts

@@ -11,25 +11,25 @@
 #include <optional>
 #include <sstream>
 
-#include "tools/evaluate/dataset.hpp"
-#include "tools/evaluate/rotation.hpp"
+#include "nodes/geometry/rotation.hpp"
+#include "nodes/layouts/files.hpp"
+#include "nodes/layouts/layout.hpp"
 
-namespace posevote {
+namespace posevote::layouts {
 namespace {
 
 namespace fs = std::filesystem;
-using dataset::fail;
 
 /// N of "rsN", or -1.
 int scene_number(const std::string& stem) {
-  return stem.starts_with("rs") ? dataset::number_of(stem.substr(2)) : -1;
+  return stem.starts_with("rs") ? number_of(stem.substr(2)) : -1;
 }
 
 /// The files of a kind in the folder of that name, or else in the data set's own.
 std::vector<fs::path> files_of(const fs::path& folder, const char* kind, const char* extension) {
   std::vector<fs::path> files;
   const fs::path own = folder / kind;
-  for (const fs::path& entry : dataset::entries_of(fs::is_directory(own) ? own : folder))
+  for (const fs::path& entry : entries_of(fs::is_directory(own) ? own : folder))
     if (entry.extension() == extension) files.push_back(entry);
   return files;
 }
@@ -94,8 +94,8 @@ Eigen::Isometry3d read_xf(const fs::path& file) {
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
     fail(file, "the last row is not 0 0 0 1");
   try {
-    return make_pose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
-                     Eigen::Vector3d(m[3], m[7], m[11]) * 0.001);
+    return geometry::make_pose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
+                               Eigen::Vector3d(m[3], m[7], m[11]) * 0.001);
   } catch (const std::invalid_argument& error) {
     fail(file, error.what());
   }
@@ -163,7 +163,7 @@ void read_poses(const fs::path& folder, const std::map<int, int>& im_ids, const 
 
 GroundTruth truth(const fs::path& folder, const std::string& split) {
   GroundTruth truth;
-  for (const auto& [obj_id, file] : dataset::number_models(models(folder))) {
+  for (const auto& [obj_id, file] : number_models(models(folder))) {
     truth.objects[obj_id].name = file.stem().string();
     truth.objects[obj_id].symmetries = {Eigen::Isometry3d::Identity()};
   }
@@ -182,14 +182,11 @@ GroundTruth truth(const fs::path& folder, const std::string& split) {
   return truth;
 }
 
+const auto registered =
+    register_layout({"UWA or Queen's",
+                     "*.ply models, rsN.ply scenes and OBJECT-rsN.xf poses, in one "
+                     "folder or in models/, scenes/, ground_truth/",
+                     recognises, scenes, models, truth});
+
 }  // namespace
-
-const DatasetReader kUwaReader{"UWA or Queen's",
-                               "*.ply models, rsN.ply scenes and OBJECT-rsN.xf poses, in one "
-                               "folder or in models/, scenes/, ground_truth/",
-                               recognises,
-                               scenes,
-                               models,
-                               truth};
-
-}  // namespace posevote
+}  // namespace posevote::layouts

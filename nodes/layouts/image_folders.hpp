@@ -4,9 +4,10 @@
 // file names and in how the files are written.
 #pragma once
 
-#include "tools/evaluate/dataset.hpp"
+#include "nodes/layouts/files.hpp"
+#include "nodes/layouts/layout.hpp"
 
-namespace posevote::dataset {
+namespace posevote::layouts {
 
 struct ImageFolders {
   const char *poses, *cameras, *visibility;  ///< files of a scene; visibility may be null
@@ -22,4 +23,4 @@ std::vector<std::filesystem::path> list_model_files(const std::filesystem::path&
 GroundTruth read_truth(const ImageFolders& names, const std::filesystem::path& dataset,
                        const std::string& split);
 
-}  // namespace posevote::dataset
+}  // namespace posevote::layouts
