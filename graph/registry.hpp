@@ -113,11 +113,21 @@ class Registration {
     spec_->output->name = std::move(name);
     return *this;
   }
-  template <class T>
-  Registration& param(std::string name, T Params::*member, std::string unit, std::string doc,
+  /// `access`: a member pointer, or a function from Params& to a reference to what lies deeper.
+  template <class Access>
+  Registration& param(std::string name, Access access, std::string unit, std::string doc,
                       Constraint constraint = anything()) {
-    spec_->params.push_back(make_param(std::move(name), member, std::move(unit), std::move(doc),
-                                       std::move(constraint)));
+    spec_->params.push_back(make_param<Params>(std::move(name), std::move(access), std::move(unit),
+                                               std::move(doc), std::move(constraint)));
+    return *this;
+  }
+  /// A parameter that is listed apart, for those who know the method from within.
+  template <class Access>
+  Registration& expert_param(std::string name, Access access, std::string unit, std::string doc,
+                             Constraint constraint = anything()) {
+    param(std::move(name), std::move(access), std::move(unit), std::move(doc),
+          std::move(constraint));
+    spec_->params.back().expert = true;
     return *this;
   }
   /// A rule between parameters: `std::string rule(const Params&)` returns "" or what is wrong.

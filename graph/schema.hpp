@@ -43,6 +43,7 @@ struct ParamSpec {
   /// Parses text into the member; nothing if it went well, else "must be ...".
   std::function<std::optional<std::string>(void* params, std::string_view text)> set;
   std::function<std::string(const void* params)> get;
+  bool expert = false;  ///< for those who know the method from within; listed apart
 };
 
 /// Text to value and back, the same on every locale. `parse` is empty-handed where the text is not
@@ -78,19 +79,22 @@ struct Scalar<std::string> {
 /// The closest of `known` to a misspelt `name`, or "" if none is close.
 std::string closest_name(const std::string& name, const std::vector<std::string>& known);
 
-/// Builds the ParamSpec of one member. T: bool, int, double or std::string.
-template <class Params, class T>
-ParamSpec make_param(std::string name, T Params::*member, std::string unit, std::string doc,
+/// Builds the ParamSpec of one value of a Params. `access` leads to it: a member pointer, or a
+/// function as `[](Params& p) -> double& { return p.terms.weight; }` for what lies deeper.
+template <class Params, class Access>
+ParamSpec make_param(std::string name, Access access, std::string unit, std::string doc,
                      Constraint constraint) {
+  using T = std::decay_t<std::invoke_result_t<Access, Params&>>;
+  Params defaults{};
   ParamSpec spec{std::move(name),
                  Scalar<T>::kName,
                  std::move(unit),
                  std::move(doc),
-                 Scalar<T>::print(Params{}.*member),
+                 Scalar<T>::print(std::invoke(access, defaults)),
                  constraint,
                  {},
                  {}};
-  spec.set = [member, constraint](void* params,
+  spec.set = [access, constraint](void* params,
                                   std::string_view text) -> std::optional<std::string> {
     const std::optional<T> value = Scalar<T>::parse(text);
     if (!value) return std::string("expected ") + Scalar<T>::kName;
@@ -99,11 +103,12 @@ ParamSpec make_param(std::string name, T Params::*member, std::string unit, std:
     } else if constexpr (!std::is_same_v<T, bool>) {
       if (auto expected = constraint.violated_by(static_cast<double>(*value))) return expected;
     }
-    static_cast<Params*>(params)->*member = *value;
+    std::invoke(access, *static_cast<Params*>(params)) = *value;
     return std::nullopt;
   };
-  spec.get = [member](const void* params) {
-    return Scalar<T>::print(static_cast<const Params*>(params)->*member);
+  spec.get = [access](const void* params) {
+    Params copy = *static_cast<const Params*>(params);  // `access` may ask for what it can change
+    return Scalar<T>::print(std::invoke(access, copy));
   };
   return spec;
 }

@@ -32,13 +32,20 @@ std::string ports(const NodeSpec& spec) {
   return text;
 }
 
-/// A line that can be pasted into a pipeline, with every parameter at its default.
+/// Those for experts, or the others; in the order of their registration.
+std::vector<ParamSpec> parameters(const NodeSpec& spec, bool expert) {
+  std::vector<ParamSpec> chosen = spec.params;
+  std::erase_if(chosen, [expert](const ParamSpec& param) { return param.expert != expert; });
+  return chosen;
+}
+
+/// A line that can be pasted into a pipeline, with every common parameter at its default.
 std::string example(const NodeSpec& spec) {
   std::string in;
   for (const Port& port : spec.inputs) in += (in.empty() ? "" : ", ") + port.name;
   std::string text = spec.name + ": {in: [" + in + "]";
   if (spec.output) text += ", out: " + spec.output->name;
-  for (const ParamSpec& param : spec.params)
+  for (const ParamSpec& param : parameters(spec, false))
     text += ", " + param.name + ": " + (param.default_text.empty() ? "''" : param.default_text);
   return text + "}";
 }
@@ -47,25 +54,39 @@ std::string range(const ParamSpec& param) {
   return param.constraint.text().empty() ? "any" : param.constraint.text();
 }
 
-void print_node(const NodeSpec& spec) {
-  std::cout << spec.name << ' ' << ports(spec) << "\n  " << spec.doc << "\n\n";
-  for (const ParamSpec& param : spec.params)
+void print_parameters(const std::vector<ParamSpec>& params) {
+  for (const ParamSpec& param : params)
     std::cout << "  " << param.name << ": " << param.type << " = "
               << (param.default_text.empty() ? "''" : param.default_text)
               << (param.unit.empty() ? "" : " [" + param.unit + "]") << ", " << range(param)
               << "\n      " << param.doc << "\n";
-  std::cout << (spec.params.empty() ? "" : "\n") << "  " << example(spec) << "\n";
+  if (!params.empty()) std::cout << "\n";
+}
+
+void print_node(const NodeSpec& spec) {
+  std::cout << spec.name << ' ' << ports(spec) << "\n  " << spec.doc << "\n\n";
+  print_parameters(parameters(spec, false));
+  const std::vector<ParamSpec> expert = parameters(spec, true);
+  if (!expert.empty()) std::cout << "  For experts:\n\n";
+  print_parameters(expert);
+  std::cout << "  " << example(spec) << "\n";
+}
+
+std::string table(const std::vector<ParamSpec>& params) {
+  if (params.empty()) return "";
+  std::string text = "| parameter | type | default | unit | range | |\n|---|---|---|---|---|---|\n";
+  for (const ParamSpec& param : params)
+    text += "| `" + param.name + "` | " + param.type + " | " + param.default_text + " | " +
+            param.unit + " | " + range(param) + " | " + param.doc + " |\n";
+  return text + "\n";
 }
 
 /// The reference's section of one node.
 std::string section(const NodeSpec& spec) {
-  std::string text = "### " + spec.name + "\n\n" + spec.doc + "\n\n`" + ports(spec) + "`\n\n";
-  if (!spec.params.empty())
-    text += "| parameter | type | default | unit | range | |\n|---|---|---|---|---|---|\n";
-  for (const ParamSpec& param : spec.params)
-    text += "| `" + param.name + "` | " + param.type + " | " + param.default_text + " | " +
-            param.unit + " | " + range(param) + " | " + param.doc + " |\n";
-  return text + (spec.params.empty() ? "" : "\n") + "```yaml\n" + example(spec) + "\n```\n\n";
+  const std::vector<ParamSpec> expert = parameters(spec, true);
+  return "### " + spec.name + "\n\n" + spec.doc + "\n\n`" + ports(spec) + "`\n\n" +
+         table(parameters(spec, false)) + (expert.empty() ? "" : "For experts:\n\n") +
+         table(expert) + "```yaml\n" + example(spec) + "\n```\n\n";
 }
 
 }  // namespace

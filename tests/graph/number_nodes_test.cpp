@@ -17,6 +17,9 @@ namespace {
 struct None {};
 struct Factor {
   int factor = 2;
+  struct {
+    int offset = 0;
+  } terms;
 };
 struct Bad {
   int bad = -1;
@@ -27,7 +30,9 @@ struct Names {
   double size = 1.5;
 };
 
-Number multiply(const Number& in, const Factor& params) { return {in.value * params.factor}; }
+Number multiply(const Number& in, const Factor& params) {
+  return {in.value * params.factor + params.terms.offset};
+}
 Number add(const Number& a, const Number& b, const None&) { return {a.value + b.value}; }
 Number fail_on(const Number& in, const Bad& params) {
   if (in.value == params.bad) throw std::runtime_error("met " + std::to_string(in.value));
@@ -79,7 +84,10 @@ const auto r1 =
     graph::register_node("multiply", multiply, "Times a factor.")
         .input("in")
         .output("out")
-        .param("factor", &Factor::factor, "", "What to multiply by.", graph::in_range(-100, 100));
+        .param("factor", &Factor::factor, "", "What to multiply by.", graph::in_range(-100, 100))
+        .expert_param(
+            "offset", [](Factor& params) -> int& { return params.terms.offset; }, "",
+            "What to add afterwards.", graph::at_least(0));
 const auto r2 = graph::register_node("add", add, "a + b").input("a").input("b").output("sum");
 const auto r3 = graph::register_node("fail_on", fail_on, "Fails on one value.")
                     .input("in")

@@ -139,3 +139,14 @@ TEST_CASE("the wiring as DOT names every node and stream", "[plan]") {
   for (const char* part : {"\"n\" -> \"test/double\"", "\"test/double\" -> \"r\"", "(multiply)"})
     CHECK(dot.find(part) != std::string::npos);
 }
+
+TEST_CASE("a parameter may lie deeper in its Params, and be marked for experts", "[schema]") {
+  const graph::Plan plan = plan_of(kHead + "  multiply: {in: n, out: r, offset: 7}\n");
+  CHECK(graph::effective_parameters(plan)["multiply"] ==
+        std::map<std::string, std::string>{{"factor", "2"}, {"offset", "7"}});
+  const std::vector<graph::ParamSpec>& params = plan.nodes[0].spec->params;
+  CHECK_FALSE(params[0].expert);
+  CHECK(params[1].expert);
+  check_one(kHead + "  multiply: {in: n, out: r, offset: -1}\n",
+            "test.yaml:4:37: multiply.offset: ", "must be >= 0");
+}
