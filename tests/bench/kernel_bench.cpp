@@ -18,9 +18,9 @@
 #include "nodes/data/votes.hpp"
 #include "nodes/load/read_cloud.hpp"
 #include "nodes/match/descriptor_index.hpp"
+#include "nodes/poses/measure_fit.hpp"
 #include "nodes/prepare/nearest_index.hpp"
 #include "nodes/segment/icp.hpp"
-#include "nodes/segment/measure_fit.hpp"
 #include "nodes/write/write_ply.hpp"
 #include "tests/support/run_node.hpp"
 #include "tools/simulate/scanner.hpp"
@@ -183,8 +183,8 @@ void score_pose(benchmark::State& state) {
   const RangeView view(s.scan.cloud, kResolution);
   const ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        measure_fit(s.model.cloud, outline, surface, view, s.T_scene_model, 2 * kResolution, 0));
+    benchmark::DoNotOptimize(poses::measure_fit(s.model.cloud, outline, surface, view,
+                                                s.T_scene_model, 2 * kResolution, 0));
   count_items(state, s.model.cloud.points.rows());
 }
 

@@ -23,33 +23,40 @@ using graph::ParamSpec;
 
 const std::vector<ParamSpec>& model_params() {
   static const std::vector<ParamSpec> params{
-      make_param("shape", &ModelSpec::shape, "", "Kind of object.", one_of(shape_names())),
-      make_param("seed", &ModelSpec::seed, "", "Which one of that kind.", in_range(0, 1e9)),
-      make_param("size", &ModelSpec::size, "m", "Longest side.", in_range(0.02, 1))};
+      make_param<ModelSpec>("shape", &ModelSpec::shape, "", "Kind of object.",
+                            one_of(shape_names())),
+      make_param<ModelSpec>("seed", &ModelSpec::seed, "", "Which one of that kind.",
+                            in_range(0, 1e9)),
+      make_param<ModelSpec>("size", &ModelSpec::size, "m", "Longest side.", in_range(0.02, 1))};
   return params;
 }
 
 const std::vector<ParamSpec>& scene_params() {
   static const std::vector<ParamSpec> params{
-      make_param("count", &SceneSpec::count, "", "Images of this kind.", in_range(1, 10000)),
-      make_param("ground", &SceneSpec::ground, "", "What bodies lie on.",
-                 one_of({"table", "bin", "unseen"})),
-      make_param("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
-      make_param("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
-      make_param("radius", &SceneSpec::radius, "m", "Bodies drop inside.", in_range(0.01, 1)),
-      make_param("least_surface", &SceneSpec::least_surface, "", "Seen of each object.",
-                 in_range(0, 0.5)),
-      make_param("most_surface", &SceneSpec::most_surface, "", "Seen of each object.",
-                 in_range(0.1, 1)),
-      make_param("distance", &SceneSpec::distance, "m", "Sensor to table.", in_range(0.3, 3)),
-      make_param("elevation", &SceneSpec::elevation, "deg", "Above table.", in_range(10, 90)),
-      make_param("azimuth", &SceneSpec::azimuth, "deg", "Around table.", in_range(-360, 360))};
+      make_param<SceneSpec>("count", &SceneSpec::count, "", "Images of this kind.",
+                            in_range(1, 10000)),
+      make_param<SceneSpec>("ground", &SceneSpec::ground, "", "What bodies lie on.",
+                            one_of({"table", "bin", "unseen"})),
+      make_param<SceneSpec>("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
+      make_param<SceneSpec>("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
+      make_param<SceneSpec>("radius", &SceneSpec::radius, "m", "Bodies drop inside.",
+                            in_range(0.01, 1)),
+      make_param<SceneSpec>("least_surface", &SceneSpec::least_surface, "", "Seen of each object.",
+                            in_range(0, 0.5)),
+      make_param<SceneSpec>("most_surface", &SceneSpec::most_surface, "", "Seen of each object.",
+                            in_range(0.1, 1)),
+      make_param<SceneSpec>("distance", &SceneSpec::distance, "m", "Sensor to table.",
+                            in_range(0.3, 3)),
+      make_param<SceneSpec>("elevation", &SceneSpec::elevation, "deg", "Above table.",
+                            in_range(10, 90)),
+      make_param<SceneSpec>("azimuth", &SceneSpec::azimuth, "deg", "Around table.",
+                            in_range(-360, 360))};
   return params;
 }
 
 const std::vector<ParamSpec>& file_params() {
   static const std::vector<ParamSpec> params{
-      make_param("seed", &Spec::seed, "", "Poses and noise.", in_range(0, 1e9))};
+      make_param<Spec>("seed", &Spec::seed, "", "Poses and noise.", in_range(0, 1e9))};
   return params;
 }
 
