@@ -12,8 +12,8 @@
 
 #include "graph/runner.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/formats/results_writer.hpp"
 #include "nodes/library/library_file.hpp"
-#include "nodes/write/results_writer.hpp"
 #include "tools/commands.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
@@ -101,7 +101,7 @@ void begin_run(const RunCommand& command, const Configuration& configuration,
     return fs::create_directories(command.out), void();
   }
   const std::set<std::size_t> answered =
-      begin_results(command.out, command.resume, files_of(scenes));
+      formats::begin_results(command.out, command.resume, files_of(scenes));
   std::erase_if(scenes, [&](const SceneEntry& scene) { return answered.contains(scene.number); });
   if (!answered.empty()) spdlog::info("{} frames are answered already", answered.size());
 }

@@ -89,8 +89,8 @@ PpfDetector::PpfDetector(const Cloud& model, const PpfTraining& training)
 
 PpfDetector::~PpfDetector() = default;
 
-std::vector<Hypothesis> PpfDetector::match(const FeatureSet& scene,
-                                           const PpfMatching& matching) const {
+std::vector<Hypothesis> PpfDetector::match(const FeatureSet& scene, const PpfMatching& matching,
+                                           const Eigen::Vector3f& model_center) const {
   const cv::Mat cloud = to_opencv(scene.points, scene.normals);
   const Box box(cloud);
   if (box.is_flat()) return {};
@@ -107,7 +107,8 @@ std::vector<Hypothesis> PpfDetector::match(const FeatureSet& scene,
   std::vector<Hypothesis> found;
   for (const ppf::Pose3DPtr& pose : poses)
     if (const auto T_scene_model = rigid(*pose); T_scene_model && pose->numVotes > 0)
-      found.push_back({*T_scene_model, static_cast<double>(pose->numVotes)});
+      found.push_back(
+          hypothesis_of(*T_scene_model, model_center, static_cast<double>(pose->numVotes)));
   sort_by_support(found);
   return found;
 }

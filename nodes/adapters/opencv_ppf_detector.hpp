@@ -32,7 +32,8 @@ class PpfDetector {
   PpfDetector& operator=(const PpfDetector&) = delete;
 
   /// Poses in descending order of votes. Safe from many threads, which wait for each other.
-  std::vector<Hypothesis> match(const FeatureSet& scene, const PpfMatching& matching) const;
+  std::vector<Hypothesis> match(const FeatureSet& scene, const PpfMatching& matching,
+                                const Eigen::Vector3f& model_center) const;
 
  private:
   struct OpenCv;

@@ -38,7 +38,8 @@ Hypotheses make_hypotheses(const Correspondences& matches, const PclPoses& poses
     const Eigen::Isometry3d T_scene_model(poses[i].cast<double>());
     const Eigen::Matrix3d R = T_scene_model.linear();
     if (!T_scene_model.matrix().allFinite() || !R.isUnitary(1e-3) || R.determinant() < 0) continue;
-    found.items.push_back({T_scene_model, static_cast<double>(groups[i].size())});
+    found.items.push_back(
+        hypothesis_of(T_scene_model, matches.model->center, static_cast<double>(groups[i].size())));
   }
   sort_by_support(found.items);
   return found;

@@ -28,7 +28,7 @@ Hypotheses opencv_ppf(const PpfModel& object, const FeatureSet& scene,
                       const adapters::PpfMatching& params) {
   if (scene.normals.rows() != scene.points.rows())
     throw std::runtime_error("the scan has points without normals");
-  return {object.model, object.detector->match(scene, params)};
+  return {object.model, object.detector->match(scene, params, object.model->center)};
 }
 
 const auto registered =

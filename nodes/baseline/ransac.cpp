@@ -104,7 +104,7 @@ Hypotheses ransac(const Correspondences& matches, const FeatureSet& scene, const
     if (!is_rigid(pairs, sample, similarity)) return;
     const Eigen::Isometry3d pose = fit(pairs, sample);
     if (!pose.matrix().allFinite()) return;
-    tried[i] = {pose, count_inliers(pairs, pose, distance)};
+    tried[i] = hypothesis_of(pose, matches.model->center, count_inliers(pairs, pose, distance));
   });
   std::erase_if(tried, [](const Hypothesis& one) { return one.support < 2 * kSample; });
   sort_by_support(tried);

@@ -15,17 +15,6 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr Eigen::Index kFewSamples = 500;  // show the way
-constexpr double kFewUntil = 0.5;          // of the iterations, at most
-constexpr double kSlow = 0.1;  // of the final search radius: a shorter step calls for the many
-constexpr std::size_t kFewestPairs = 10;
-constexpr double kShrink = 0.85;  // of the search radius per iteration
-// Eigenvalues, as shares of the pairs' weight. Directions below the first are not moved at all;
-// weakly held ones take several small steps as long as chance partners are many, and get there once
-// the search radius is the last.
-constexpr double kUnobserved = 1e-4, kDamping = 0.01, kFinalDamping = 1e-3;
-constexpr double kMaxTurn = 0.2;  // [rad] per iteration
-
 /// A posed model point on its scan point's tangent plane.
 struct Pair {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -85,7 +74,8 @@ Pivot find_pivot(const std::vector<Pair>& pairs) {
 }
 
 /// (lever x turn, shift) that brings the points closer to the planes.
-Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping) {
+Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping,
+                    double unobserved) {
   Matrix6d normal_matrix = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weight = 0;
@@ -101,14 +91,14 @@ Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double d
   for (Eigen::Index k = 0; k < 6; ++k) {
     const double held = solver.eigenvalues()[k];
     const Vector6d direction = solver.eigenvectors().col(k);
-    if (held > kUnobserved) step -= direction.dot(gradient) / weight / (held + damping) * direction;
+    if (held > unobserved) step -= direction.dot(gradient) / weight / (held + damping) * direction;
   }
   return step;
 }
 
 /// Shortens a step that leaves the range in which it was linearised.
-Vector6d limit_step(const Vector6d& step, double lever, double distance) {
-  const double turn = step.head<3>().norm() / (kMaxTurn * lever);
+Vector6d limit_step(const Vector6d& step, double lever, double distance, double most_turn) {
+  const double turn = step.head<3>().norm() / (most_turn * lever);
   const double shift = step.tail<3>().norm() / distance;
   return step / std::max({1.0, turn, shift});
 }
@@ -127,26 +117,30 @@ void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& p
 
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
                       const IcpParams& params) {
+  const IcpTerms& terms = params.terms;
+  const Eigen::Index few_samples =
+      std::min(static_cast<Eigen::Index>(terms.few_points), params.samples);
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
   bool few = distance > end;
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
-    few = few && iteration < kFewUntil * params.iterations;
+    few = few && iteration < terms.few_until * params.iterations;
     const std::vector<Pair> pairs =
         find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance),
-                   few ? std::min(kFewSamples, params.samples) : params.samples);
-    if (pairs.size() < kFewestPairs) break;
+                   few ? few_samples : params.samples);
+    if (pairs.size() < static_cast<std::size_t>(terms.fewest_pairs)) break;
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) break;
-    const double damping = distance > end ? kDamping : kFinalDamping;
-    const Vector6d step = limit_step(solve_step(pairs, pivot, damping), pivot.lever, distance);
+    const double damping = distance > end ? terms.damping : terms.final_damping;
+    const Vector6d step = limit_step(solve_step(pairs, pivot, damping, terms.unobserved),
+                                     pivot.lever, distance, terms.most_turn);
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
-    const bool is_done = distance <= end && step.norm() <= (few ? kSlow : params.still) * end;
+    const bool is_done = distance <= end && step.norm() <= (few ? terms.slow : params.still) * end;
     if (is_done && !few) break;
     few = few && !is_done;
-    distance = std::max(end, distance * kShrink);
+    distance = std::max(end, distance * terms.shrink);
   }
   return T_scene_model;
 }

@@ -8,16 +8,10 @@
 namespace posevote::geometry {
 namespace {
 
-constexpr float kTrusted = 0.9F;     // share of points that must look like a single view
-constexpr float kMinCosine = 0.26F;  // 75 deg off the axis: a plane image ends here
-constexpr float kFootprint = 0.75F;  // half-width a point covers, x spacing: neighbours overlap
-constexpr int kMaxCells = 2000;      // per side
-constexpr int kMaxHalfCells = 8;     // a point right before the sensor does not fill the image
-
 /// Directions with range in z: (x / z, y / z, range); range 0 for what is not in the image.
-Eigen::Vector3f project(const Eigen::Vector3f& in_image_frame) {
+Eigen::Vector3f project(const Eigen::Vector3f& in_image_frame, float least_cosine) {
   const float range = in_image_frame.norm();
-  if (!(in_image_frame.z() > kMinCosine * range)) return Eigen::Vector3f::Zero();
+  if (!(in_image_frame.z() > least_cosine * range)) return Eigen::Vector3f::Zero();
   return {in_image_frame.x() / in_image_frame.z(), in_image_frame.y() / in_image_frame.z(), range};
 }
 
@@ -32,21 +26,24 @@ float median_range(const std::vector<Eigen::Vector3f>& image_points) {
 
 }  // namespace
 
-RangeView::RangeView(const Cloud& scan, float resolution)
-    : viewpoint_(scan.viewpoint), image_(scan.image) {
-  if (!(resolution > 0) || !find_axis(scan, resolution)) return;
+RangeView::RangeView(const Cloud& scan, float resolution, const ViewTerms& terms)
+    : viewpoint_(scan.viewpoint),
+      image_(scan.image),
+      least_axis_cosine_(static_cast<float>(terms.least_axis_cosine)) {
+  if (!(resolution > 0) || !find_axis(scan, resolution, terms)) return;
   std::vector<Eigen::Vector3f> image_points;
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
     const Eigen::Vector3f p = to_image(scan.points.row(i).transpose());
     if (p.z() > resolution) image_points.push_back(p);
   }
-  const auto expected = kTrusted * static_cast<float>(scan.points.rows());
+  const auto expected = static_cast<float>(terms.trusted) * static_cast<float>(scan.points.rows());
   if (static_cast<float>(image_points.size()) < expected) return;
-  lay_out(image_points, resolution / median_range(image_points));
-  for (const Eigen::Vector3f& p : image_points) splat(p, kFootprint * resolution / p.z());
+  lay_out(image_points, resolution / median_range(image_points), terms.most_cells);
+  const float half_width = static_cast<float>(terms.footprint) * resolution;
+  for (const Eigen::Vector3f& p : image_points) splat(p, half_width / p.z(), terms.most_half_cells);
 }
 
-bool RangeView::find_axis(const Cloud& scan, float resolution) {
+bool RangeView::find_axis(const Cloud& scan, float resolution, const ViewTerms& terms) {
   const Eigen::Index count = scan.points.rows();
   if (count == 0 || scan.normals.rows() != count) return false;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
@@ -58,8 +55,9 @@ bool RangeView::find_axis(const Cloud& scan, float resolution) {
     axis += (ray / range).cast<double>();
     if (scan.normals.row(i).dot(ray.transpose()) <= 0) ++facing;
   }
-  if (static_cast<float>(facing) < kTrusted * static_cast<float>(count)) return false;
-  if (axis.norm() < 0.5 * static_cast<double>(count)) return false;
+  if (static_cast<float>(facing) < static_cast<float>(terms.trusted) * static_cast<float>(count))
+    return false;
+  if (axis.norm() < terms.least_mean_cosine * static_cast<double>(count)) return false;
   const Eigen::Vector3f z = axis.normalized().cast<float>();
   R_image_scan_ =
       Eigen::Quaternionf::FromTwoVectors(z, Eigen::Vector3f::UnitZ()).toRotationMatrix();
@@ -67,24 +65,25 @@ bool RangeView::find_axis(const Cloud& scan, float resolution) {
 }
 
 Eigen::Vector3f RangeView::to_image(const Eigen::Vector3f& point) const {
-  return project(R_image_scan_ * (point - viewpoint_));
+  return project(R_image_scan_ * (point - viewpoint_), least_axis_cosine_);
 }
 
-void RangeView::lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell) {
+void RangeView::lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell,
+                        int most_cells) {
   Eigen::Vector2f low = image_points.front().head<2>(), high = low;
   for (const Eigen::Vector3f& p : image_points) {
     low = low.cwiseMin(p.head<2>());
     high = high.cwiseMax(p.head<2>());
   }
-  cell_ = std::max(cell, (high - low).maxCoeff() / static_cast<float>(kMaxCells));
+  cell_ = std::max(cell, (high - low).maxCoeff() / static_cast<float>(most_cells));
   origin_ = low;
   width_ = static_cast<int>((high.x() - low.x()) / cell_) + 1;
   height_ = static_cast<int>((high.y() - low.y()) / cell_) + 1;
   range_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0F);
 }
 
-void RangeView::splat(const Eigen::Vector3f& image_point, float half_width) {
-  const int reach = std::min(kMaxHalfCells, static_cast<int>(std::lround(half_width / cell_)));
+void RangeView::splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells) {
+  const int reach = std::min(most_half_cells, static_cast<int>(std::lround(half_width / cell_)));
   const int u = static_cast<int>((image_point.x() - origin_.x()) / cell_);
   const int v = static_cast<int>((image_point.y() - origin_.y()) / cell_);
   for (int y = std::max(0, v - reach); y <= std::min(height_ - 1, v + reach); ++y)

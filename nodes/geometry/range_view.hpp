@@ -15,11 +15,22 @@
 
 namespace posevote::geometry {
 
+/// Constants of the method; poses/term_params.cpp says where they come from.
+struct ViewTerms {
+  double trusted = 0.9;  ///< share of points that must look like a single view
+  double least_mean_cosine =
+      0.5;  ///< of the rays to their mean: a view spans well under a half space
+  double least_axis_cosine = 0.26;  ///< 75 deg off the axis: a plane image ends here
+  double footprint = 0.75;          ///< half-width a point covers, x spacing: neighbours overlap
+  int most_cells = 2000;            ///< per side
+  int most_half_cells = 8;          ///< a point right before the sensor does not fill the image
+};
+
 /// Immutable once built.
 class RangeView {
  public:
   /// `resolution`: point spacing of the scan [m].
-  RangeView(const Cloud& scan, float resolution);
+  RangeView(const Cloud& scan, float resolution, const ViewTerms& terms = {});
 
   /// Whether the cloud is the view from its viewpoint: its normals point there and it spans well
   /// under a half space. A merged or synthetic cloud, or a viewpoint inside it, is not; then there
@@ -34,9 +45,9 @@ class RangeView {
   bool is_outside(const Eigen::Vector3f& point) const;
 
  private:
-  bool find_axis(const Cloud& scan, float resolution);
-  void lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell);
-  void splat(const Eigen::Vector3f& image_point, float half_width);
+  bool find_axis(const Cloud& scan, float resolution, const ViewTerms& terms);
+  void lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell, int most_cells);
+  void splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells);
   Eigen::Vector3f to_image(const Eigen::Vector3f& point) const;
 
   Eigen::Vector3f viewpoint_ = Eigen::Vector3f::Zero();
@@ -48,6 +59,7 @@ class RangeView {
   }
 
   Eigen::AlignedBox2f image_;
+  float least_axis_cosine_ = 0;
   float cell_ = 0;
   int width_ = 0, height_ = 0;
   std::vector<float> range_;

@@ -4,8 +4,7 @@
 namespace posevote::geometry {
 namespace {
 
-constexpr float kMinFacingCosine = 0.1F;  // sensors measure grazing surfaces badly or not at all
-constexpr float kMinNormalCosine = 0.7F;  // 45 deg
+float squared(float value) { return value * value; }
 
 }  // namespace
 
@@ -14,12 +13,15 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
           T.linear() * Eigen::Vector3f(cloud.normals.row(i).transpose())};
 }
 
-ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach)
+ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
+                         const SurfaceTerms& terms)
     : points_(scan.points),
       normals_(scan.normals),
       gone_(static_cast<std::size_t>(scan.points.rows()), 0),
       viewpoint_(scan.viewpoint),
       single_view_(single_view),
+      facing_squared_(squared(static_cast<float>(terms.least_facing_cosine))),
+      normal_cosine_(static_cast<float>(terms.least_normal_cosine)),
       index_(points_, reach) {
   for (std::size_t i = 0; i < gone_.size(); ++i) {
     const bool usable = normals_.row(static_cast<Eigen::Index>(i)).squaredNorm() > 0.5F;
@@ -36,8 +38,7 @@ bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
   if (!single_view_) return p.normal.squaredNorm() > 0;
   const Eigen::Vector3f to_sensor = viewpoint_ - p.point;
   const float along = p.normal.dot(to_sensor);
-  constexpr float kLeast = kMinFacingCosine * kMinFacingCosine;
-  return along > 0 && along * along > kLeast * to_sensor.squaredNorm();
+  return along > 0 && along * along > facing_squared_ * to_sensor.squaredNorm();
 }
 
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
@@ -51,7 +52,7 @@ std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint
   if (!nearest) return std::nullopt;
   const auto row = static_cast<Eigen::Index>(nearest->index);
   const Eigen::Vector3f normal = normals_.row(row).transpose();
-  if (normal.dot(p.normal) < kMinNormalCosine) return std::nullopt;
+  if (normal.dot(p.normal) < normal_cosine_) return std::nullopt;
   return OrientedPoint{points_.row(row).transpose(), normal};
 }
 

@@ -21,13 +21,19 @@ struct OrientedPoint {
 /// Row `i` of a cloud, moved by T.
 OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T);
 
+/// Constants of the method; poses/term_params.cpp says where they come from.
+struct SurfaceTerms {
+  double least_facing_cosine = 0.1;  ///< of what a sensor measures at all
+  double least_normal_cosine = 0.7;  ///< between normals that agree: 45 deg
+};
+
 /// Reading is safe from many threads.
 class ScanSurface {
  public:
   /// The points of `scan`; those without a normal are never found. `single_view`: whether the scan
   /// is what one sensor at its viewpoint saw (RangeView::usable); if not, a point counts as visible
   /// whichever way it looks. `reach`: the distance that is asked for most [m].
-  ScanSurface(const Cloud& scan, bool single_view, float reach);
+  ScanSurface(const Cloud& scan, bool single_view, float reach, const SurfaceTerms& terms = {});
 
   /// From now on, points with explained[row] are not found either.
   void take_out(const std::vector<char>& explained);
@@ -35,7 +41,7 @@ class ScanSurface {
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
   /// Whether a surface with this orientation turns its outside to the sensor.
   bool faces_sensor(const OrientedPoint& p) const;
-  /// The nearest scan point, at most `distance` away, if its normal agrees with p's within 45 deg.
+  /// The nearest scan point, at most `distance` away, if its normal agrees with p's.
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
   /// The same, whichever way it looks.
   std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
@@ -45,6 +51,7 @@ class ScanSurface {
   std::vector<char> gone_;  // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;
   bool single_view_;
+  float facing_squared_, normal_cosine_;  // least
   NearestIndex index_;
 };
 

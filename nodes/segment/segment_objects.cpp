@@ -1,77 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Greedy segmentation of a scan into objects (Buch, Kiforenko, Kraft, ICCV 2017, section 4): each
 // time the mode of the vote densities that agrees best with the scan, refined by ICP
-// (object_search.hpp), and the scan points it explains taken out before the next is sought. The
+// (nodes/poses), and the scan points it explains taken out before the next is sought. The
 // paper takes the objects in descending number of correspondences; here the best fit goes first, of
-// whatever object (find_instances.hpp), so that no wrong object is left with a right one's points.
-// Correspondences that start at explained points are taken out of all objects; their votes are
-// subtracted from the densities, which equals voting anew without them. The score rests on what the
-// sensor measured, free space included (measure_fit.cpp), on how exactly the pose lies there, as
-// instances found before do (usual_residual.hpp), and on how many of the features that it explains
-// voted for it (ObjectSearch::consensus). Cost: per object `candidates` glances, 80 neighbourhood
-// queries and sketches, 20 coarse ICPs and some 10 looks, and again for what is not found at first;
-// per instance four ICPs, as many of twins, and one of ten thousand points. A scan without votes
-// gives no detections; that is no failure. Points without a normal are never matched. Known limit:
-// an object of which one flat side alone is seen scores low.
+// whatever object (poses/find_instances.hpp), so that no wrong object is left with a right one's
+// points. Correspondences that start at explained points are taken out of all objects; their votes
+// are subtracted from the densities, which equals voting anew without them. The score rests on what
+// the sensor measured, free space included (poses/measure_fit.cpp), on how exactly the pose lies
+// there, as instances found before do (poses/usual_residual.hpp), and on how many of the features
+// that it explains voted for it (poses/score.hpp). Cost: per object `candidates` glances, 80
+// neighbourhood queries and sketches, 20 coarse ICPs and some 10 looks, and again for what is not
+// found at first; per instance four ICPs, as many of twins, and one of ten thousand points. A scan
+// without votes gives no detections; that is no failure. Points without a normal are never matched.
+// Known limit: an object of which one flat side alone is seen scores low.
 //
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}
+#include "nodes/density/refine_mode.hpp"
+#include "nodes/poses/segment_params.hpp"
 #include "nodes/segment/live_votes.hpp"
-#include "nodes/segment/refine_mode.hpp"
-#include "nodes/segment/segment_params.hpp"
 
 namespace posevote::segment {
 namespace {
 
-Detection make_detection(const LiveVotes& object, const Candidate& candidate) {
+Detection poses::make_detection(const LiveVotes& object, const poses::Candidate& candidate) {
   const Model& model = *object.votes->model;
-  Detection detection = make_detection(model, candidate);
-  detection.density = raw_density(*object.raw, candidate.mode);
-  detection.runner_up_density = runner_up_density(
-      *object.votes, object.raw->density, candidate.mode.center, kRunnerUpRadius * model.diagonal);
+  Detection detection = poses::make_detection(model, candidate);
+  detection.density = density::raw_density(*object.raw, candidate.proposed);
+  detection.runner_up_density =
+      density::runner_up_density(*object.votes, object.raw->density, candidate.proposed.center,
+                                 poses::kRunnerUpRadius * model.diagonal);
   return detection;
 }
 
-Proposals propose_from(LiveVotes& object, const ScanState& scan, double min_density) {
-  return {
-      [&object, &scan, min_density] {
-        remove_explained(object, scan.feature_explained);
-        std::vector<PoseMode> modes;
-        for (const std::uint32_t vote : best_votes(*object.votes, object.density, min_density)) {
-          modes.push_back(vote_pose(*object.votes, vote));
-          modes.back().support = object.density[vote];
-        }
-        return modes;
-      },
-      [&object](const PoseMode& mode) {
-        return refine_mode(*object.votes, *object.raw, object.alive, mode);
-      },
-      object.votes->votes_per_correspondence};
+poses::Proposals propose_from(LiveVotes& object, const poses::ScanState& scan, double min_density,
+                              const density::ShiftTerms& shift) {
+  return {[&object, &scan, min_density] {
+            remove_explained(object, scan.feature_explained);
+            std::vector<Hypothesis> modes;
+            for (const std::uint32_t vote :
+                 density::best_votes(*object.votes, object.density, min_density)) {
+              modes.push_back(density::vote_hypothesis(*object.votes, vote));
+              modes.back().support = object.density[vote];
+            }
+            return modes;
+          },
+          [&object, &shift](const Hypothesis& mode) {
+            return density::refine_mode(*object.votes, *object.raw, object.alive, mode, shift);
+          }};
 }
 
 Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
                            const FeatureSet& scene_features, const Cloud& scene_cloud,
-                           const Scale& scale, const SegmentParams& params) {
-  check_scan(scene_features, scene_cloud, scale);
+                           const Scale& scale, const poses::SegmentParams& params) {
+  poses::check_scan(scene_features, scene_cloud, scale);
   check_votes(votes, densities, static_cast<std::size_t>(scene_features.points.rows()));
-  for (const auto& slot : votes.slots) check_model(*slot->model);
-  ScanState scan(scene_cloud, scene_features, scale.resolution);
+  for (const auto& slot : votes.slots) poses::check_model(*slot->model);
+  poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms);
   std::vector<LiveVotes> objects;
   for (std::size_t i = 0; i < votes.size(); ++i)
     objects.push_back(all_votes(votes[i], densities[i]));
-  std::vector<ObjectSearch> searches;
+  std::vector<poses::ObjectSearch> searches;
   for (LiveVotes& object : objects) {
     const Model& model = *object.votes->model;
-    searches.emplace_back(model, propose_from(object, scan, params.min_density),
-                          instance_params(params, model, scan.resolution), scan);
+    const poses::Sought sought{model, scan, poses::instance_params(params, model, scan.resolution),
+                               params.terms, object.votes->votes_per_correspondence};
+    searches.emplace_back(sought,
+                          propose_from(object, scan, params.min_density, params.terms.shift));
   }
   Detections found;
-  for (const Instance& instance : find_instances(searches, scan))
-    found.items.push_back(make_detection(objects[instance.object], instance.candidate));
+  for (const poses::Instance& instance : poses::find_instances(searches, scan))
+    found.items.push_back(poses::make_detection(objects[instance.object], instance.candidate));
   return found;
 }
 
-const auto registered = with_segment_params(
+const auto registered = poses::with_segment_params(
     graph::register_node("segment_objects", segment_objects,
                          "Finds the instances of all objects one by one, taking what each explains "
                          "out of the scan.")

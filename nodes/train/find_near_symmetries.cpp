@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motions that carry a model nearly onto itself: a carton turned by half, a cup upside down. From
 // most sides such poses look alike and get each other's votes, so who finds one should look at the
-// others too (object_search.hpp). Motions after which nothing differs are symmetries: nobody can
+// others too (poses/twins.hpp). Motions after which nothing differs are symmetries: nobody can
 // tell the poses apart, and they are left out.
 //
 // Rotations about the centre, spread evenly over SO(3) (Alexa, "Super-Fibonacci Spirals", CVPR
@@ -25,17 +25,16 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr std::size_t kRotations = 1200;  // each within some 15 deg of any rotation
-constexpr std::size_t kRefined = 60;
-constexpr Eigen::Index kSample = 500;  // points that rate a motion
-constexpr float kCoarse = 0.05F;       // x diagonal: near, before ICP
-constexpr float kFine = 2;             // x resolution: near, after it
-constexpr double kSymmetric = 0.99;    // share of points from which on nothing differs
-constexpr double kSameMotion = 20 * std::numbers::pi / 180;
-
 struct Params {
   double least = 0.6;
   int most = 12;
+  int rotations = 1200;
+  int refined = 60;
+  int sample = 500;
+  double coarse = 0.05;
+  double fine = 2;
+  double symmetric = 0.99;
+  double same_motion = 20;
 };
 
 struct Rated {
@@ -85,24 +84,28 @@ void sort_by_overlap(std::vector<Rated>& motions) {
 }
 
 /// The rotations that bring most of the model near to itself.
-std::vector<Rated> rate_rotations(const Cloud& cloud, const Eigen::Vector3d& center, float near) {
-  const Cloud sample = every(cloud, kSample), coarse = every(cloud, 4 * kSample);
+std::vector<Rated> rate_rotations(const Cloud& cloud, const Eigen::Vector3d& center, float near,
+                                  const Params& params) {
+  const Cloud sample = every(cloud, params.sample), coarse = every(cloud, 4 * params.sample);
   const geometry::ScanSurface surface(coarse, false, near);
-  std::vector<Rated> motions(kRotations);
-  graph::parallel_for(kRotations, 8, [&](std::size_t i) {
-    motions[i].motion = Eigen::Translation3d(center) * spiral_rotation(i, kRotations) *
+  std::vector<Rated> motions(static_cast<std::size_t>(params.rotations));
+  graph::parallel_for(motions.size(), 8, [&](std::size_t i) {
+    motions[i].motion = Eigen::Translation3d(center) * spiral_rotation(i, motions.size()) *
                         Eigen::Translation3d(-center);
     motions[i].overlap = overlap_of(sample, surface, motions[i].motion, near);
   });
   sort_by_overlap(motions);
-  motions.resize(kRefined);
+  motions.resize(std::min(motions.size(), static_cast<std::size_t>(params.refined)));
   return motions;
 }
 
 class Judge {
  public:
-  Judge(const Cloud& cloud, float fine)
-      : sample_(every(cloud, kSample)), surface_(cloud, false, fine), fine_(fine) {}
+  Judge(const Cloud& cloud, float fine, const Params& params)
+      : params_(params),
+        sample_(every(cloud, params.sample)),
+        surface_(cloud, false, fine),
+        fine_(fine) {}
 
   Rated refine(const Rated& start, float near) const {
     const Isometry3d motion = geometry::icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
@@ -111,9 +114,11 @@ class Judge {
   /// Whether two motions lead to poses that look the same.
   bool same(const Isometry3d& a, const Isometry3d& b) const {
     const Isometry3d between = a.inverse() * b;
-    if (Eigen::AngleAxisd(between.linear()).angle() < kSameMotion) return true;
-    return share_of(sample_, between,
-                    [this](const geometry::OrientedPoint& p) { return is_on(p); }) >= kSymmetric;
+    if (Eigen::AngleAxisd(between.linear()).angle() < params_.same_motion * std::numbers::pi / 180)
+      return true;
+    return share_of(sample_, between, [this](const geometry::OrientedPoint& p) {
+             return is_on(p);
+           }) >= params_.symmetric;
   }
   /// The points of the cloud that a motion carries off the surface.
   std::vector<std::uint32_t> carried_off(const Cloud& cloud, const Isometry3d& motion) const {
@@ -130,6 +135,7 @@ class Judge {
     return surface_.nearest_left(p.point, fine_).has_value();
   }
 
+  const Params& params_;
   Cloud sample_;
   geometry::ScanSurface surface_;
   float fine_;
@@ -140,9 +146,9 @@ NearSymmetries find_near_symmetries(const Cloud& cloud, const Scale& scale, cons
   const Eigen::RowVector3f low = cloud.points.colwise().minCoeff();
   const Eigen::RowVector3f high = cloud.points.colwise().maxCoeff();
   const Eigen::Vector3d center = (0.5F * (low + high)).transpose().cast<double>();
-  const float near = kCoarse * (high - low).norm();
-  std::vector<Rated> motions = rate_rotations(cloud, center, near);
-  const Judge judge(cloud, kFine * scale.resolution);
+  const float near = static_cast<float>(params.coarse) * (high - low).norm();
+  std::vector<Rated> motions = rate_rotations(cloud, center, near, params);
+  const Judge judge(cloud, static_cast<float>(params.fine) * scale.resolution, params);
   graph::parallel_for(motions.size(), 1,
                       [&](std::size_t i) { motions[i] = judge.refine(motions[i], near); });
   sort_by_overlap(motions);
@@ -171,7 +177,31 @@ const auto registered =
         .param("least", &Params::least, "",
                "Share of the surface that must come to lie on the surface again.",
                graph::in_range(0.1, 1))
-        .param("most", &Params::most, "", "Motions to keep; 0: none.", graph::in_range(0, 100));
+        .param("most", &Params::most, "", "Motions to keep; 0: none.", graph::in_range(0, 100))
+        .expert_param(
+            "rotations", &Params::rotations, "",
+            "Rotations that are tried: any is within some 15 deg of one of them, which ICP "
+            "overcomes. Training time grows with it.",
+            graph::in_range(1, 100000))
+        .expert_param("refined", &Params::refined, "",
+                      "Of these, refined by ICP. Training time grows with it.",
+                      graph::in_range(1, 100000))
+        .expert_param("sample", &Params::sample, "points",
+                      "That rate a motion. Training time grows with it.",
+                      graph::in_range(10, 100000))
+        .expert_param("coarse", &Params::coarse, "x diagonal",
+                      "A point this near to the surface lies on it, before ICP: what a rotation "
+                      "may be off.",
+                      graph::in_range(0.001, 1))
+        .expert_param("fine", &Params::fine, "x resolution",
+                      "And after it: what a scan may show of a difference (inlier_distance).",
+                      graph::in_range(0.1, 100))
+        .expert_param("symmetric", &Params::symmetric, "",
+                      "Share of points that stay on the surface from which on nothing differs; the "
+                      "rest is sampling.",
+                      graph::in_range(0, 1))
+        .expert_param("same_motion", &Params::same_motion, "deg",
+                      "Motions that differ by less are one.", graph::in_range(0, 180));
 
 }  // namespace
 }  // namespace posevote::train

@@ -11,16 +11,16 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
-#include "nodes/write/results_writer.hpp"
+#include "nodes/formats/results_writer.hpp"
 
-namespace posevote {
+namespace posevote::write {
 namespace {
 
 struct Params {};
 
 /// The open files, and the times of all frames so far.
 struct Results {
-  std::optional<ResultsWriter> writer;
+  std::optional<formats::ResultsWriter> writer;
   std::optional<graph::Trace> trace;
 
   void begin(const graph::FrameContext& context) {
@@ -36,8 +36,8 @@ struct Results {
   }
 };
 
-FrameReport report_of(const SceneFile& file, const graph::FrameContext& context) {
-  FrameReport report{context.number, file, 0, {}, context.name};
+formats::FrameReport report_of(const SceneFile& file, const graph::FrameContext& context) {
+  formats::FrameReport report{context.number, file, 0, {}, context.name};
   std::vector<graph::Span> spans;
   for (const graph::Stage& stage : context.stages) {
     spans.push_back(stage.span);
@@ -85,4 +85,4 @@ const auto registered =
         .on_failure(write_failure);
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::write

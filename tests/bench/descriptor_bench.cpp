@@ -159,10 +159,10 @@ Row measure(const Bench& bench, const Variant& variant) {
 std::string to_text(const Variant& variant, Row row) {
   std::sort(row.margins.begin(), row.margins.end());
   const auto margin = [&](std::size_t i) { return row.margins.empty() ? 0 : row.margins[i]; };
-  const auto whole = static_cast<double>(std::max<std::size_t>(row.correspondences, 1));
+  const auto layouts::whole = static_cast<double>(std::max<std::size_t>(row.correspondences, 1));
   char text[256];
   std::snprintf(text, sizeof text, "| %s | %.1f %% | %.3f | %.3f | %.1f, %.1f | %.2f | %.2f |\n",
-                variant.name.c_str(), 100 * static_cast<double>(row.inliers) / whole,
+                variant.name.c_str(), 100 * static_cast<double>(row.inliers) / layouts::whole,
                 row.counts.recall(), row.counts.precision(), margin(0),
                 margin(row.margins.size() / 2), row.describe, row.match);
   return text;

@@ -21,7 +21,7 @@
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/nearest_index.hpp"
-#include "nodes/segment/measure_fit.hpp"
+#include "nodes/poses/measure_fit.hpp"
 #include "tests/support/run_node.hpp"
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/shapes.hpp"
@@ -174,8 +174,8 @@ void score_pose(benchmark::State& state) {
   const geometry::RangeView view(s.scan.cloud, kResolution);
   const geometry::ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
   for (auto _ : state)
-    benchmark::DoNotOptimize(segment::measure_fit(s.model.cloud, outline, surface, view,
-                                                  s.T_scene_model, 2 * kResolution, 0));
+    benchmark::DoNotOptimize(poses::measure_fit(s.model.cloud, outline, surface, view,
+                                                s.T_scene_model, 2 * kResolution, 0));
   count_items(state, s.model.cloud.points.rows());
 }
 

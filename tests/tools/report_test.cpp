@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
-#include "nodes/write/results_writer.hpp"
+#include "nodes/formats/results_writer.hpp"
 #include "tests/support/command.hpp"
 #include "tools/evaluate/write_evaluation.hpp"
 #include "tools/experiment/experiment.hpp"
@@ -76,7 +76,7 @@ Detection found(const std::string& model, double score) {
   return found;
 }
 
-write::FrameReport frame(std::size_t number, const std::string& name) {
+formats::FrameReport frame(std::size_t number, const std::string& name) {
   return {number,
           {"scans/" + name + ".ply", 0, static_cast<int>(number), {}},
           1.0 + static_cast<double>(number),
@@ -86,12 +86,12 @@ write::FrameReport frame(std::size_t number, const std::string& name) {
 
 /// A run of three frames, each with a picture, and a failure.
 void write_run(const std::filesystem::path& folder) {
-  begin_results(folder, false);
-  ResultsWriter writer(folder);
+  formats::begin_results(folder, false);
+  formats::ResultsWriter writer(folder);
   writer.write(frame(0, "one"), {{found("chef", 0.91), found("chicken", 0.42)}}, {});
   writer.write(frame(1, "two"), {{found("chef", 0.93)}}, {});
   writer.write(frame(2, "three"), {}, {});
-  writer.write(FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
+  writer.write(formats::FailureReport{3, "scans/bad.ply", "load_scene", "holds 3 of 9 vertices"});
   std::filesystem::create_directories(folder / "pictures");
   for (const char* name : {"one", "two", "three"})
     std::ofstream(folder / "pictures" / (std::string(name) + ".png")) << kPng << name;
@@ -195,10 +195,10 @@ TEST_CASE("odd names and messages", "[report]") {
   const TemporaryFolder folder;
   const std::string name = "a<b>&\"c\"\xff";
   {
-    begin_results(folder.path(), false);
-    ResultsWriter writer(folder.path());
+    formats::begin_results(folder.path(), false);
+    formats::ResultsWriter writer(folder.path());
     writer.write(frame(0, name), {{found("</td><script>x</script>", 2)}}, {});
-    writer.write(FailureReport{1, name, "<node>", "\"&\xfe\n"});
+    writer.write(formats::FailureReport{1, name, "<node>", "\"&\xfe\n"});
   }
   std::filesystem::create_directories(folder / "pictures");
   std::ofstream(folder / "pictures" / (name + ".png")) << kPng;
@@ -211,8 +211,8 @@ TEST_CASE("odd names and messages", "[report]") {
 TEST_CASE("torn and strange lines of results are left out", "[report]") {
   const TemporaryFolder folder;
   write_run(folder.path());
-  const std::string whole = read_text(folder / "results.json");
-  folder.write("results.json", whole.substr(0, whole.find("three") + 2));
+  const std::string layouts::whole = read_text(folder / "results.json");
+  folder.write("results.json", layouts::whole.substr(0, layouts::whole.find("three") + 2));
   std::string page = whole_page(folder);
   CHECK_THAT(page,
              Contains("<dt>frames answered</dt><dd>2</dd>") && Contains("Torn lines left out: 1."));

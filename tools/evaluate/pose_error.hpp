@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "nodes/geometry/grid.hpp"
 #include "nodes/layouts/ground_truth.hpp"
-#include "nodes/prepare/grid.hpp"
 
 namespace posevote {
 

@@ -14,9 +14,9 @@
 
 #include "nodes/formats/read_cloud.hpp"
 #include "nodes/formats/write_ply.hpp"
+#include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/rotation.hpp"
-#include "nodes/prepare/normals.hpp"
-#include "nodes/prepare/winding.hpp"
+#include "nodes/geometry/winding.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/results_csv.hpp"
 #include "tools/experiment/correspondence_quality.hpp"

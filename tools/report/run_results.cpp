@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "nodes/write/results_writer.hpp"
+#include "nodes/formats/results_writer.hpp"
 #include "tools/report/folder.hpp"
 
 namespace posevote {
@@ -83,8 +83,9 @@ bool holds_run(const fs::path& folder) { return is_file(folder / "results.json")
 
 RunResults read_run(const fs::path& folder) {
   RunResults run;
-  const write::WrittenFrames answered = write::read_frames(folder / "results.json", "detections");
-  const write::WrittenFrames failed = write::read_frames(folder / "failures.json", "what");
+  const formats::WrittenFrames answered =
+      formats::read_frames(folder / "results.json", "detections");
+  const formats::WrittenFrames failed = formats::read_frames(folder / "failures.json", "what");
   StageSums stages;
   for (const Json& json : answered.items) {
     run.frames.push_back(to_frame(json));

@@ -39,7 +39,8 @@ TEST_CASE("every rival finds the pose among wrong matches", "[baseline]") {
       const Hypotheses found = propose(rival, Scene(wrong));
       INFO(rival << ", share of wrong matches " << wrong);
       REQUIRE(!found.items.empty());
-      const Eigen::Isometry3d error = found.items[0].T_scene_model.inverse() * kBody.T_scene_model;
+      const Eigen::Isometry3d error =
+          T_scene_model_of(found.items[0], found.model->center).inverse() * kBody.T_scene_model;
       CHECK(error.translation().norm() < 0.015);
       CHECK(Eigen::AngleAxisd(error.linear()).angle() < 0.2);
       for (std::size_t i = 1; i < found.items.size(); ++i)
@@ -57,7 +58,8 @@ TEST_CASE("every rival gives the same hypotheses at any number of threads", "[ba
     REQUIRE(two.items.size() == again.items.size());
     for (std::size_t i = 0; i < two.items.size(); ++i) {
       CHECK(two.items[i].support == again.items[i].support);
-      CHECK(two.items[i].T_scene_model.matrix() == again.items[i].T_scene_model.matrix());
+      CHECK(two.items[i].center == again.items[i].center);
+      CHECK(two.items[i].rotation.coeffs() == again.items[i].rotation.coeffs());
     }
   }
 }

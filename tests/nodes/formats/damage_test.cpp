@@ -45,9 +45,9 @@ struct Sample {
 
 std::function<void(std::string_view)> mesh_check(const std::string& ending) {
   return [ending](std::string_view bytes) {
-    RawMesh mesh = read_mesh(ending, bytes);
-    mend_concave(mesh);
-    const Cloud cloud = to_cloud(mesh, 0.001);
+    formats::RawMesh mesh = read_mesh(ending, bytes);
+    formats::mend_concave(mesh);
+    const Cloud cloud = formats::to_cloud(mesh, 0.001);
     REQUIRE(is_valid(cloud));
   };
 }

@@ -41,7 +41,7 @@ TEST_CASE("OBJ: negative indices count from the latest vertex at that line", "[l
 }
 
 TEST_CASE("OBJ: a long face goes on in the next line", "[load][obj]") {
-  const RawMesh mesh = read_mesh(".obj", kSquare + "f 1 2 \\\r\n  3 \\\n4\nf 1 2 3\n");
+  const formats::RawMesh mesh = read_mesh(".obj", kSquare + "f 1 2 \\\r\n  3 \\\n4\nf 1 2 3\n");
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}});
   CHECK_THAT(obj_error(kSquare + "f 1 2 3 \\\n"), has("line 5: the file ends within a face"));
   CHECK_THAT(obj_error(kSquare + "f 1 2 \\\n 3\nf 1 9 2\n"),

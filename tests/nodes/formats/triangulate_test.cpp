@@ -12,11 +12,11 @@ using namespace posevote::test;
 
 namespace {
 
-using Corners = std::vector<Triple>;
+using Corners = std::vector<formats::Triple>;
 
 /// The polygon of these corners, of which `first` is the first.
-RawMesh polygon(const Corners& corners, std::size_t first = 0) {
-  RawMesh mesh;
+formats::RawMesh polygon(const Corners& corners, std::size_t first = 0) {
+  formats::RawMesh mesh;
   mesh.points = corners;
   std::vector<std::uint32_t> order(corners.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -26,7 +26,7 @@ RawMesh polygon(const Corners& corners, std::size_t first = 0) {
 }
 
 /// The sum of the triangles' own areas: more than the polygon's where some reach beyond it.
-double area(const RawMesh& mesh) {
+double area(const formats::RawMesh& mesh) {
   double sum = 0;
   for (const auto& face : mesh.faces) {
     Eigen::Vector3d p[3];
@@ -47,26 +47,26 @@ TEST_CASE("a concave polygon is cut within itself, whichever corner comes first"
       INFO(first << " " << backward);
       Corners corners = kL;
       if (backward) std::reverse(corners.begin(), corners.end());
-      RawMesh mesh = polygon(corners, first);
-      mend_concave(mesh);
+      formats::RawMesh mesh = polygon(corners, first);
+      formats::mend_concave(mesh);
       CHECK(mesh.faces.size() == 4);
       CHECK(area(mesh) == Approx(3));
     }
-  RawMesh fan = polygon(kL, 1);
+  formats::RawMesh fan = polygon(kL, 1);
   CHECK(area(fan) == Approx(4));  // what there is to mend
 }
 
 TEST_CASE("a concave polygon in any plane, a comb, a ring that is cut open", "[formats]") {
   Corners tilted = kL;
-  for (Triple& p : tilted) p = {p[0], p[1], 5 - 2 * p[0] + p[1]};
-  RawMesh mesh = polygon(tilted, 1);
-  mend_concave(mesh);
+  for (formats::Triple& p : tilted) p = {p[0], p[1], 5 - 2 * p[0] + p[1]};
+  formats::RawMesh mesh = polygon(tilted, 1);
+  formats::mend_concave(mesh);
   CHECK(area(mesh) == Approx(3 * std::sqrt(6.0)));
 
   Corners comb{{20, -1, 0}, {0, -1, 0}};
   for (int i = 0; i <= 20; ++i) comb.push_back({double(i), i % 2 ? 5.0 : 0.0, 0});
   mesh = polygon(comb);
-  mend_concave(mesh);
+  formats::mend_concave(mesh);
   CHECK(mesh.faces.size() == comb.size() - 2);
   CHECK(area(mesh) == Approx(20 + 50));
 
@@ -80,7 +80,7 @@ TEST_CASE("a concave polygon in any plane, a comb, a ring that is cut open", "[f
                   {3, 3, 0},
                   {3, 1, 0},
                   {1, 1, 0}});
-  mend_concave(mesh);
+  formats::mend_concave(mesh);
   CHECK(area(mesh) == Approx(16 - 4));
 }
 
@@ -93,9 +93,9 @@ TEST_CASE("other polygons stay fans", "[formats]") {
         Corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},             // in line
         Corners{{3, 3, 0}, {0, 3, 0}, {5, 2, 0}, {1, 5, 0}, {5, 3, 0}},  // crosses itself
         Corners{{0, 0, 0}, {2, 0, 0}, {nan, 1, 0}, {1, 1, 0}, {1, 2, 0}}, many}) {
-    RawMesh mesh = polygon(corners);
+    formats::RawMesh mesh = polygon(corners);
     const auto before = mesh.faces;
-    mend_concave(mesh);
+    formats::mend_concave(mesh);
     CHECK(mesh.faces == before);
   }
 }
@@ -103,7 +103,7 @@ TEST_CASE("other polygons stay fans", "[formats]") {
 TEST_CASE("files with concave polygons, of every format that has polygons", "[formats]") {
   const TempDir dir;
   std::string vertices, v;
-  for (const Triple& p : kL)
+  for (const formats::Triple& p : kL)
     for (const std::string prefix : {"", "v "})
       (prefix.empty() ? vertices : v) += prefix + std::to_string(p[0]) + " " +
                                          std::to_string(p[1]) + " " + std::to_string(p[2]) + "\n";
@@ -114,8 +114,8 @@ TEST_CASE("files with concave polygons, of every format that has polygons", "[fo
                            dir.write("a.off", "OFF\n6 1 0\n" + vertices + "6 1 2 3 4 5 0\n"),
                            dir.write("a.ply", ply + vertices + "6 1 2 3 4 5 0\n")}) {
     INFO(file);
-    const Cloud cloud = read_cloud(file, 1);
-    RawMesh mesh;
+    const Cloud cloud = formats::read_cloud(file, 1);
+    formats::RawMesh mesh;
     mesh.points = kL;
     REQUIRE(cloud.faces.rows() == 4);
     for (Eigen::Index i = 0; i < 4; ++i)

@@ -28,7 +28,7 @@ void write_box(const fs::path& file) {
 
 std::string message_of(const TemporaryFolder& folder, const std::string& targets = "") {
   try {
-    read_ground_truth(folder.path(), "test", targets);
+    layouts::read_ground_truth(folder.path(), "test", targets);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -36,12 +36,12 @@ std::string message_of(const TemporaryFolder& folder, const std::string& targets
 }
 
 std::vector<SceneFile> scenes_of(const TemporaryFolder& folder) {
-  return find_layout(folder.path(), "test").scenes(folder.path(), "test");
+  return layouts::find_layout(folder.path(), "test").scenes(folder.path(), "test");
 }
 
 /// By obj_id, as `run` numbers them.
 std::map<int, fs::path> models_of(const TemporaryFolder& folder) {
-  return number_models(find_layout(folder.path(), "test").models(folder.path()));
+  return layouts::number_models(layouts::find_layout(folder.path(), "test").models(folder.path()));
 }
 
 void write_sixd(const TemporaryFolder& folder) {
@@ -72,7 +72,7 @@ void write_uwa(const TemporaryFolder& folder, const std::string& models, const s
 }
 
 /// A layout of one file, `truth.test`: all that a layout has to do.
-const auto registered = register_layout(
+const auto registered = layouts::register_layout(
     {"Test's", "truth.test",
      [](const fs::path& folder, const std::string&) { return fs::exists(folder / "truth.test"); },
      [](const fs::path& folder, const std::string&) {
@@ -80,7 +80,7 @@ const auto registered = register_layout(
      },
      [](const fs::path& folder) { return std::vector<fs::path>{folder / "models/chef.ply"}; },
      [](const fs::path&, const std::string&) {
-       GroundTruth truth;
+       layouts::GroundTruth truth;
        truth.images[{3, 4}];
        truth.objects[1].symmetries = {Eigen::Isometry3d::Identity()};
        truth.instances.push_back({3, 4, 1, Eigen::Isometry3d::Identity(), std::nullopt});
@@ -96,9 +96,9 @@ TEST_CASE("a registered layout is recognised, read, and named where none fits", 
                  Contains("\n  Test's: truth.test"));
   folder.write("truth.test", "");
   write_box(folder / "models/chef.ply");
-  CHECK(find_layout(folder.path(), "test").name == "Test's");
+  CHECK(layouts::find_layout(folder.path(), "test").name == "Test's");
   CHECK(scenes_of(folder).at(0).im_id == 4);
-  const GroundTruth truth = read_ground_truth(folder.path(), "test");
+  const layouts::GroundTruth truth = layouts::read_ground_truth(folder.path(), "test");
   CHECK(truth.objects.at(1).name == "chef");
   CHECK(truth.objects.at(1).diameter == Approx(0.13));
 }
@@ -107,15 +107,15 @@ TEST_CASE("of layouts that fit, the first by name; no two of one name", "[datase
   const TemporaryFolder folder;
   folder.write("truth.test", "");
   write_sixd(folder);
-  CHECK(find_layout(folder.path(), "test").name == "SIXD 2017");
-  CHECK_THROWS_WITH(register_layout(find_layout(folder.path(), "test")),
+  CHECK(layouts::find_layout(folder.path(), "test").name == "SIXD 2017");
+  CHECK_THROWS_WITH(layouts::register_layout(layouts::find_layout(folder.path(), "test")),
                     "two layouts are registered as 'SIXD 2017'");
 }
 
 TEST_CASE("SIXD 2017", "[dataset]") {
   const TemporaryFolder folder;
   write_sixd(folder);
-  const GroundTruth truth = read_ground_truth(folder.path(), "test");
+  const layouts::GroundTruth truth = layouts::read_ground_truth(folder.path(), "test");
   REQUIRE(truth.instances.size() == 1);
   CHECK(truth.instances[0].scene_id == 5);
   CHECK(truth.instances[0].im_id == 7);
@@ -136,13 +136,13 @@ TEST_CASE("UWA in folders, and all in one", "[dataset]") {
   for (const bool flat : {false, true}) {
     const TemporaryFolder folder;
     write_uwa(folder, flat ? "" : "models/", flat ? "" : "scenes/", flat ? "" : "ground_truth/");
-    const GroundTruth truth = read_ground_truth(folder.path(), "test");
+    const layouts::GroundTruth truth = layouts::read_ground_truth(folder.path(), "test");
     REQUIRE(truth.instances.size() == 2);
     const auto scenes = scenes_of(folder);
     const std::map<int, fs::path> models = models_of(folder);
     REQUIRE(scenes.size() == 3);
     REQUIRE(models.size() == 2);
-    for (const TrueInstance& instance : truth.instances) {
+    for (const layouts::TrueInstance& instance : truth.instances) {
       const SceneFile& scene = scenes[static_cast<std::size_t>(instance.im_id)];
       const bool is_chef = models.at(instance.obj_id).stem() == "chef";
       CHECK(scene.im_id == instance.im_id);
@@ -180,7 +180,7 @@ TEST_CASE("image sets: contradictions are named", "[dataset]") {
   write_sixd(folder);
   folder.write("test/05/depth/0008.png", "");
   CHECK(message_of(folder) == "accepted");  // an image without poses is not judged
-  CHECK(read_ground_truth(folder.path(), "test").left_out.contains({5, 8}));
+  CHECK(layouts::read_ground_truth(folder.path(), "test").left_out.contains({5, 8}));
   CHECK_THROWS_WITH(scenes_of(folder), Contains("info.yml: image 8: has no camera"));
   fs::rename(folder / "test/05/depth/0007.png", folder / "test/05/depth/0009.png");
   write_box(folder / "models/obj_03.ply");
@@ -227,8 +227,8 @@ TEST_CASE("poses of an image that is not there", "[dataset]") {
   folder.write("test/05/gt.yml", "7:\n" + pose + "8:\n" + pose);
   CHECK_THAT(message_of(folder), Contains("image 8 has true poses but no depth image"));
   folder.write("targets.json", R"([{"scene_id": 5, "im_id": 7, "obj_id": 2, "inst_count": 1}])");
-  const GroundTruth truth =
-      read_ground_truth(folder.path(), "test", (folder / "targets.json").string());
+  const layouts::GroundTruth truth =
+      layouts::read_ground_truth(folder.path(), "test", (folder / "targets.json").string());
   CHECK(truth.instances.size() == 1);
   CHECK(truth.left_out.contains({5, 8}));
 }

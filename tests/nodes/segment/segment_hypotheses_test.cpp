@@ -4,7 +4,7 @@
 
 #include "nodes/data/detections.hpp"
 #include "nodes/data/hypotheses.hpp"
-#include "nodes/segment/measure_fit.hpp"
+#include "nodes/poses/measure_fit.hpp"
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
@@ -19,7 +19,7 @@ const Placed kRight{1, pose(0.09, -0.02, 0.75, 2.5)};
 Hypothesis beside(const Placed& body, double metres, double support) {
   Eigen::Isometry3d T = body.T_scene_model;
   T.translation().x() += metres;
-  return {T, support};
+  return hypothesis_of(T, bumpy_model(1)->center, support);
 }
 
 using Values = std::map<std::string, std::string>;
@@ -68,7 +68,7 @@ TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit bett
   for (const double x : {0.1, 0.25})
     for (const double y : {-0.2, 0.0, 0.2}) {
       bodies.push_back({1, pose(x, y, 0.8, 10 * x + y)});
-      proposed.items.push_back({bodies.back().T_scene_model, 10});
+      proposed.items.push_back(beside(bodies.back(), 0, 10));
     }
   Cloud scan = scan_of(bodies);
   // Of the others a half is missing.
@@ -83,7 +83,7 @@ TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit bett
   Eigen::Isometry3d rough = kLeft.T_scene_model;
   rough.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 0.5).normalized()));
   rough.translation().x() += 0.01;
-  proposed.items.push_back({rough, 10});
+  proposed.items.push_back(beside({1, rough}, 0, 10));
   const auto found = segmented(proposed, scan, {{"min_score", "0.05"}});
   REQUIRE(found.size() == 1);
   CHECK(shift(found[0], kLeft) < 0.002);
@@ -121,7 +121,8 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
   auto model = std::make_shared<Model>(*bumpy_model(1));
   const auto found_with = [&](const NearSymmetries& near_symmetries) {
     model->near_symmetries = near_symmetries;
-    return segmented({model, {{kLeft.T_scene_model * turned.inverse(), 9}}}, scan, {});
+    return segmented({model, {beside({1, kLeft.T_scene_model * turned.inverse()}, 0, 9)}}, scan,
+                     {});
   };
   const auto alone = found_with({});
   CHECK((alone.empty() || shift(alone[0], kLeft) > 0.002 || alone[0].score < 0.8));
@@ -143,7 +144,7 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
   std::vector<std::uint32_t> for_wrong, for_right;
   for (std::uint32_t i = 0; i < model->cloud.points.rows(); ++i) {
     const auto says = [&](const Eigen::Isometry3d& T) {
-      return segment::weigh_points(model->cloud, {i}, surface, view, T, 2 * kResolution).balance;
+      return poses::weigh_points(model->cloud, {i}, surface, view, T, 2 * kResolution).balance;
     };
     if (says(wrong) > 0) for_wrong.push_back(i);
     if (says(kLeft.T_scene_model) > 0) for_right.push_back(i);
@@ -151,7 +152,7 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
   REQUIRE(for_wrong.size() > 100);
   const auto is_found = [&](const NearSymmetry& near_symmetry) {
     model->near_symmetries = {{near_symmetry}};
-    const auto found = segmented({model, {{wrong, 9}}}, scan, {{"refine", "false"}});
+    const auto found = segmented({model, {beside({1, wrong}, 0, 9)}}, scan, {{"refine", "false"}});
     return found.size() == 1 &&
            found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
   };

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nodes/data/files.hpp"
-#include "nodes/write/results_writer.hpp"
+#include "nodes/formats/results_writer.hpp"
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -45,7 +45,7 @@ nlohmann::json json(const std::filesystem::path& file) {
 TEST_CASE("write_results writes what is found and what failed, with the times of all stages",
           "[write]") {
   const TemporaryFolder folder;
-  begin_results(folder.path(), false);
+  formats::begin_results(folder.path(), false);
   const Writer writer;
   CHECK(writer.spec->last);
   writer.write(frame(0, folder.path()), {{make_detection({0, 0, 1})}});
@@ -79,7 +79,7 @@ TEST_CASE("write_results writes nothing where there is no output folder", "[writ
 
 TEST_CASE("results that cannot be written end the run", "[write]") {
   const TemporaryFolder folder;
-  begin_results(folder.path(), false);
+  formats::begin_results(folder.path(), false);
   const Writer writer;
   writer.write(frame(0, folder.path()), {{make_detection({0, 0, 1})}});
   {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/density/find_modes.hpp"
+
+#include <algorithm>
+
+namespace posevote::density {
+
+Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
+  return {votes.tx[vote], votes.ty[vote], votes.tz[vote]};
+}
+
+Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote) {
+  return {vote_center(votes, vote),
+          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote]), 0};
+}
+
+std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,
+                                      double min_density) {
+  const std::size_t per_correspondence = votes.votes_per_correspondence;
+  std::vector<std::uint32_t> best;
+  if (per_correspondence == 0) return best;
+  for (std::size_t first = 0; first < density.size(); first += per_correspondence) {
+    const auto begin = density.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto highest =
+        std::max_element(begin, begin + static_cast<std::ptrdiff_t>(per_correspondence));
+    if (*highest > 0 && *highest >= min_density)
+      best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
+  }
+  std::stable_sort(best.begin(), best.end(), [&density](std::uint32_t a, std::uint32_t b) {
+    return density[a] > density[b];
+  });
+  return best;
+}
+
+double runner_up_density(const VoteSet& votes, const std::vector<double>& density,
+                         const Eigen::Vector3f& center, float radius) {
+  double highest = 0;
+  for (std::size_t v = 0; v < density.size(); ++v) {
+    if (density[v] <= highest) continue;
+    const auto vote = static_cast<std::uint32_t>(v);
+    if ((vote_center(votes, vote) - center).norm() > radius) highest = density[v];
+  }
+  return highest;
+}
+
+}  // namespace posevote::density

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/results_writer.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+namespace posevote::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time\n";
+constexpr const char* kResultsHead = "{\"frames\": [";
+constexpr const char* kFailuresTail = "\n]\n";
+
+std::string results_tail(const std::vector<graph::NodeTimes>& nodes) {
+  double sum = 0;
+  for (const graph::NodeTimes& node : nodes) sum += node.total;
+  ordered_json list = ordered_json::array();
+  for (const graph::NodeTimes& node : nodes)
+    list.push_back({{"node", node.node},
+                    {"calls", node.calls},
+                    {"total_s", node.total},
+                    {"mean_s", node.mean()},
+                    {"max_s", node.max},
+                    {"share", sum > 0 ? node.total / sum : 0}});
+  return "\n],\n\"nodes\": " + list.dump() + "}\n";
+}
+
+/// One line; names that are not UTF-8 (paths may be anything) are mended, not thrown at.
+std::string line(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json to_json(const Detection& found) {
+  std::vector<double> matrix;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix.push_back(found.T_scene_model.matrix()(row, column));
+  return {{"obj_id", found.obj_id},
+          {"model", found.model},
+          {"score", found.score},
+          {"density", found.density},
+          {"runner_up_density", found.runner_up_density},
+          {"inlier_fraction", found.inlier_fraction},
+          {"rmse_m", found.rmse},
+          {"T_scene_model", matrix}};
+}
+
+ordered_json to_json(const FrameReport& frame, const Detections& detections) {
+  ordered_json list = ordered_json::array();
+  for (const Detection& found : detections.items) list.push_back(to_json(found));
+  return {{"frame", frame.number},
+          {"name", frame.name},
+          {"file", frame.file.path.string()},
+          {"scene_id", frame.file.scene_id},
+          {"im_id", frame.file.im_id},
+          {"seconds", frame.seconds},
+          {"stages", frame.stages},
+          {"detections", list}};
+}
+
+/// Rows of results.csv from a line of results.json, which holds all of them: a killed run may have
+/// written half a row.
+std::string csv_rows(const ordered_json& json) {
+  FrameReport frame;
+  frame.file.scene_id = json.at("scene_id").get<int>();
+  frame.file.im_id = json.at("im_id").get<int>();
+  frame.seconds = json.at("seconds").get<double>();
+  Detections detections;
+  for (const ordered_json& item : json.at("detections")) {
+    Detection& found = detections.items.emplace_back();
+    found.obj_id = item.at("obj_id").get<int>();
+    found.score = item.at("score").get<double>();
+    for (int i = 0; i < 16; ++i)
+      found.T_scene_model.matrix()(i / 4, i % 4) = item.at("T_scene_model").at(i).get<double>();
+  }
+  return csv_rows(frame, detections);
+}
+
+[[noreturn]] void fail_changed(const fs::path& results, std::size_t frame,
+                               const std::string& before, const std::string& now) {
+  throw std::invalid_argument(results.string() + ": frame " + std::to_string(frame) + " is " +
+                              before + " there, now it is " + now +
+                              ": the scans have changed; choose another --out");
+}
+
+/// Names only: the same scans may be reached by another path.
+void check_same_scans(const fs::path& results, const std::vector<ordered_json>& frames,
+                      const std::map<std::size_t, fs::path>& scans) {
+  for (const ordered_json& frame : frames) {
+    const auto scan = scans.find(frame.at("frame").get<std::size_t>());
+    if (scan == scans.end()) continue;
+    const std::string before = fs::path(frame.at("file").get<std::string>()).filename().string();
+    const std::string now = scan->second.filename().string();
+    if (line(now) != line(before)) fail_changed(results, scan->first, before, now);
+  }
+}
+
+void require(const std::ostream& stream, const fs::path& file) {
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+std::set<std::size_t> begin_results(const fs::path& out, bool resume,
+                                    const std::map<std::size_t, fs::path>& scans) {
+  const fs::path csv = out / "results.csv";
+  const fs::path results = out / "results.json";
+  if (!resume && (fs::exists(csv) || fs::exists(results)))
+    throw std::invalid_argument(out.string() +
+                                ": holds another run; choose another --out or give --resume");
+  fs::create_directories(out);
+  const std::vector<ordered_json> frames = read_frames(results, "im_id").items;
+  check_same_scans(results, frames, scans);
+  // Old results are rewritten beside the old files, so that a crash here loses none of them.
+  const fs::path new_csv = out / "results.csv.new";
+  const fs::path new_results = out / "results.json.new";
+  std::set<std::size_t> answered;
+  {
+    std::ofstream rows(new_csv, std::ios::binary | std::ios::trunc);
+    AppendJson list(new_results, kResultsHead, results_tail({}));
+    rows << kHeader;
+    for (const ordered_json& frame : frames) {
+      rows << csv_rows(frame);
+      list.append(line(frame));
+      answered.insert(frame.at("frame").get<std::size_t>());
+    }
+    rows << std::flush;
+    require(rows, new_csv);
+  }
+  fs::rename(new_csv, csv);
+  fs::rename(new_results, results);
+  AppendJson(out / "failures.json", "[", kFailuresTail);
+  return answered;
+}
+
+ResultsWriter::ResultsWriter(const fs::path& out)
+    : csv_file_(out / "results.csv"),
+      csv_(csv_file_, std::ios::binary | std::ios::app),
+      results_(out / "results.json", results_tail({})),
+      failures_(out / "failures.json", kFailuresTail) {}
+
+void ResultsWriter::write(const FrameReport& frame, const Detections& detections,
+                          const std::vector<graph::NodeTimes>& nodes) {
+  errno = 0;
+  csv_ << csv_rows(frame, detections) << std::flush;
+  require(csv_, csv_file_);
+  results_.append(line(to_json(frame, detections)), results_tail(nodes));
+}
+
+void ResultsWriter::write(const FailureReport& failure) {
+  failures_.append(line({{"frame", failure.number},
+                         {"file", failure.file.string()},
+                         {"node", failure.node},
+                         {"what", failure.what}}));
+}
+
+WrittenFrames read_frames(const fs::path& file, const std::string& key) {
+  WrittenFrames frames;
+  std::ifstream stream(file);
+  for (std::string text; std::getline(stream, text);) {
+    if (!text.starts_with("{\"frame\"")) continue;
+    if (text.ends_with(',')) text.pop_back();
+    ordered_json frame = ordered_json::parse(text, nullptr, false);
+    if (!frame.is_discarded() && frame.contains(key))
+      frames.items.push_back(std::move(frame));
+    else
+      ++frames.torn;
+  }
+  return frames;
+}
+
+std::string csv_rows(const FrameReport& frame, const Detections& detections) {
+  std::string rows;
+  char text[512];
+  for (const Detection& found : detections.items) {
+    const Eigen::Matrix3d r = found.T_scene_model.linear();
+    const Eigen::Vector3d t = found.T_scene_model.translation() * 1e3;
+    std::snprintf(
+        text, sizeof text,
+        "%d,%d,%d,%.6f,%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g,%.6f %.6f %.6f,%.3f\n",
+        frame.file.scene_id, frame.file.im_id, found.obj_id, found.score, r(0, 0), r(0, 1), r(0, 2),
+        r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2), t.x(), t.y(), t.z(), frame.seconds);
+    rows += text;
+  }
+  return rows;
+}
+
+}  // namespace posevote::formats

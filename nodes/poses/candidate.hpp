@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A pose of an object on its way from proposal to detection, and the words for its grades:
+//
+//   support  what speaks for it before anything is judged: the density of its votes, or what a
+//            rival counts
+//   quality  in [0, 1]: how well the scan agrees with it: fit (measure_fit.hpp), times exactness
+//            once it is refined (usual_residual.hpp)
+//   rank     its quality, a little lower for less support than others: who goes first among the
+//            poses of one object
+//   score    in [0, 1]: quality x consensus, the share of the features on it that had voted for it;
+//            what a detection reports and min_score asks for
+#pragma once
+
+#include <vector>
+
+#include "nodes/data/hypotheses.hpp"
+#include "nodes/poses/measure_fit.hpp"
+
+namespace posevote::poses {
+
+struct Candidate {
+  Hypothesis proposed;  ///< before ICP
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
+  Fit fit;
+  double quality = 0;
+  double rank = 0;
+  double consensus = 1;           ///< in [0, 1], of votes, for the best of a search
+  bool is_refined = false;        ///< by all steps of ICP
+  std::size_t near_symmetry = 0;  ///< for twins: which of the model's made them
+  double score() const { return quality * consensus; }
+};
+
+using Candidates = std::vector<Candidate>;
+
+/// The best first, equals in their order.
+void sort_by_rank(Candidates::iterator begin, Candidates::iterator end);
+
+}  // namespace posevote::poses

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/explain_points.hpp"
+
+#include "graph/parallel.hpp"
+
+namespace posevote::poses {
+namespace {
+
+/// Most scan points lie far from the object and need no search.
+struct Ball {
+  Eigen::Vector3f center = Eigen::Vector3f::Zero();
+  float radius = -1;  // holds nothing
+};
+
+Ball enclosing_ball(const PointMatrix& points, float margin) {
+  if (points.rows() == 0) return {};
+  const Eigen::RowVector3f low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
+  return {0.5F * (low + high).transpose(), 0.5F * (high - low).norm() + 1.01F * margin};
+}
+
+}  // namespace
+
+std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& model_grid,
+                                 const Eigen::Isometry3d& T_scene_model, const PointMatrix& points,
+                                 const PointMatrix& normals, float distance) {
+  const Eigen::Isometry3f T_model_scene = T_scene_model.inverse().cast<float>();
+  const Ball ball = enclosing_ball(model.points, distance);
+  std::vector<char> explained(static_cast<std::size_t>(points.rows()), 0);
+  graph::parallel_for(explained.size(), 512, [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::Vector3f point = T_model_scene * Eigen::Vector3f(points.row(row).transpose());
+    if (!((point - ball.center).norm() <= ball.radius)) return;
+    const Eigen::Vector3f normal =
+        T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
+    // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
+    // one.
+    for (const float reach : {0.5F * distance, distance}) {  // most that have one have it close by
+      bool near = false;
+      model_grid.for_each_within(point, reach, [&](std::uint32_t neighbour, float) {
+        near = near || model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
+      });
+      explained[i] = static_cast<char>(near);
+      if (near) return;
+    }
+  });
+  return explained;
+}
+
+}  // namespace posevote::poses

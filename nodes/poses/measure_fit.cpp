@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/measure_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "graph/parallel.hpp"
+#include "nodes/geometry/spread.hpp"
+
+namespace posevote::poses {
+namespace {
+
+enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
+
+struct Judged {
+  Verdict verdict = Verdict::kAway;
+  double residual = 0;
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  unsigned ends = 0, overhang = 0;
+};
+
+/// What the sensor measured, and which distances count as near and as far [m].
+struct Sensed {
+  const geometry::ScanSurface& scan;
+  const geometry::RangeView& view;
+  float tolerance, clear_distance;
+};
+
+Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
+  if (!sensed.scan.faces_sensor(p)) return {};
+  if (const auto partner = sensed.scan.nearest_compatible(p, sensed.tolerance))
+    return {Verdict::kSupported,
+            static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
+  const float measured = sensed.view.measured_range(p.point);
+  if (measured == 0) return {sensed.view.is_outside(p.point) ? Verdict::kHidden : Verdict::kUnseen};
+  const float before = measured - (p.point - sensed.scan.viewpoint()).norm();
+  if (before > sensed.clear_distance) return {Verdict::kContradicted};
+  return {before < -sensed.clear_distance ? Verdict::kHidden : Verdict::kMismatched};
+}
+
+/// Looks where the model ends whether the scan does; what is hidden there does not tell.
+void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
+                const Eigen::Isometry3f& T, const geometry::OrientedPoint& p, const Sensed& sensed,
+                Judged& judged) {
+  geometry::for_each_end(model, outline, i, [&](const Eigen::Vector3f& end) {
+    const Eigen::Vector3f place = T * end;
+    if (sensed.scan.nearest_compatible({place, p.normal}, sensed.tolerance)) {
+      ++judged.overhang;
+    } else {
+      const float measured = sensed.view.measured_range(place);
+      const float range = (place - sensed.scan.viewpoint()).norm();
+      if (measured == 0 || measured < range - sensed.clear_distance) return;
+    }
+    ++judged.ends;
+  });
+}
+
+Fit count(const std::vector<Judged>& points) {
+  Fit fit;
+  double squared = 0;
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  for (const Judged& point : points) {
+    if (point.verdict == Verdict::kAway) continue;
+    ++fit.facing;
+    squared += point.residual * point.residual;
+    const Eigen::Vector3d normal = point.normal.cast<double>();
+    normals += normal * normal.transpose();
+    fit.supported += point.verdict == Verdict::kSupported;
+    fit.contradicted += point.verdict == Verdict::kContradicted;
+    fit.mismatched += point.verdict == Verdict::kMismatched;
+    fit.unseen += point.verdict == Verdict::kUnseen;
+    fit.hidden += point.verdict == Verdict::kHidden;
+    fit.ends += point.ends;
+    fit.overhang += point.overhang;
+  }
+  if (fit.supported == 0) return fit;
+  fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
+  fit.rmse = std::sqrt(squared / static_cast<double>(fit.supported));
+  fit.relief = geometry::relief_of(normals / static_cast<double>(fit.supported));
+  return fit;
+}
+
+/// How many points speak against the pose.
+double against(const Fit& fit, const FitTerms& terms) {
+  return static_cast<double>(fit.contradicted) +
+         terms.mismatch_weight * static_cast<double>(fit.mismatched + fit.unseen);
+}
+
+}  // namespace
+
+Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
+                const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
+                float tolerance, Eigen::Index samples, const FitTerms& terms) {
+  const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const Eigen::Index stride = samples > 0 ? model.points.rows() / samples + 1 : 1;
+  std::vector<Judged> points(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
+  graph::parallel_for(points.size(), 512, [&](std::size_t i) {
+    const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
+    const geometry::OrientedPoint p = geometry::posed_point(model, row, T);
+    points[i] = judge(p, sensed);
+    if (points[i].verdict == Verdict::kSupported)
+      judge_ends(model, outline, row, T, p, sensed, points[i]);
+  });
+  return count(points);
+}
+
+Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
+                      const geometry::ScanSurface& scan, const geometry::RangeView& view,
+                      const Eigen::Isometry3d& T_scene_model, float tolerance,
+                      const FitTerms& terms) {
+  const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  std::vector<Judged> judged;
+  judged.reserve(points.size());
+  for (const std::uint32_t i : points)
+    judged.push_back(judge(geometry::posed_point(model, i, T), sensed));
+  const Fit fit = count(judged);
+  return {static_cast<double>(fit.supported) - against(fit, terms), fit.facing - fit.hidden};
+}
+
+// quality = agreement x evidence x continuity.
+//
+// Agreement is the share of supporters among the points that take a side. Points that are hidden,
+// or beside the image, take none, so a true pose of which a tenth is visible still agrees. A point
+// that the sensor saw through speaks fully against the pose; one that met another surface or no
+// measurement counts half, because noise, clutter in contact and drop-outs do that to true poses
+// too.
+//
+// Agreement alone would let a body sunk into a table grade high: its cap is supported, the rest is
+// hidden. Evidence is therefore what the support could only show by fitting: the supported share of
+// what faces the sensor, times what there is to go by: the relief of the scan there, and how much
+// of the model's outline is met by the scan's (all that shows the pose of a flat side). Measured on
+// bin-picking scans, false poses on flat ground reach inliers 0.16 x relief 0.015, true poses
+// 0.35..0.7 x 0.3..0.5; on a laser scan 0.4..0.75 x 0.3..0.5 where false ones stay below 0.15 x
+// 0.3.
+//
+// Continuity is the share of the outline beyond which the scan does not go on. All factors are
+// ratios, so that the quality does not depend on the object's size or the sampling.
+double fit_quality(const Fit& fit, const FitTerms& terms) {
+  if (fit.supported == 0) return 0;
+  const auto supported = static_cast<double>(fit.supported);
+  const double agreement = supported / (supported + against(fit, terms));
+  const double looks = geometry::kOutlineDirections * supported;
+  const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
+  const double clues = fit.relief + terms.outline_weight * (ends - overhang) / looks;
+  const double evidence = 1 - std::exp(-fit.inlier_fraction * clues / terms.convincing);
+  const double continuity = 1 - overhang / (ends + terms.few_ends * looks);
+  return agreement * evidence * continuity;
+}
+
+}  // namespace posevote::poses

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How well a posed model agrees with what the sensor measured. Every model point that turns its
+// outside to the sensor gets one verdict:
+//
+//   supported     a scan point lies within the tolerance and its normal agrees
+//   contradicted  the sensor saw through the point to a surface clearly behind it
+//   mismatched    a surface was measured there, but not this one: other orientation, or already
+//                 explained by another detection
+//   unseen        nothing was measured in that direction
+//   hidden        a measured surface stands before the point, or it is beside the sensor's image:
+//                 says nothing
+//
+// And where the model's surface ends beside a supported point, the scan's may end, too, or go on
+// (overhang). One nearest-neighbour search a point, and one for each end.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/geometry/outline.hpp"
+#include "nodes/geometry/range_view.hpp"
+#include "nodes/geometry/scan_surface.hpp"
+#include "nodes/poses/terms.hpp"
+
+namespace posevote::poses {
+
+struct Fit {
+  std::size_t facing = 0;  ///< all of the below
+  std::size_t supported = 0, contradicted = 0, mismatched = 0, unseen = 0, hidden = 0;
+  std::size_t ends = 0;        ///< places beside the supported where the model's surface ends
+  std::size_t overhang = 0;    ///< of those, where the scan's surface goes on
+  double inlier_fraction = 0;  ///< supported / facing
+  double rmse = 0;             ///< point to plane, over the supported [m]
+  double relief = 0;           ///< of the supported: 0 if all normals are parallel, 2/3 at most
+};
+
+/// `tolerance`: of support; a surface is clearly behind or before at clear_distance times that [m].
+/// `samples`: about as many points of the model are judged, evenly strewn; 0 judges all. `outline`
+/// is the model's.
+Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
+                const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
+                float tolerance, Eigen::Index samples = 0, const FitTerms& terms = {});
+
+/// What some points say of a pose.
+struct Evidence {
+  double balance = 0;     ///< those for it less those against it
+  std::size_t sides = 0;  ///< those that take a side
+};
+
+/// By the model's points with these numbers.
+Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
+                      const geometry::ScanSurface& scan, const geometry::RangeView& view,
+                      const Eigen::Isometry3d& T_scene_model, float tolerance,
+                      const FitTerms& terms = {});
+
+/// In [0, 1]: how much of what should be visible is there, times how much there is to go by; the
+/// .cpp gives the reasons.
+double fit_quality(const Fit& fit, const FitTerms& terms = {});
+
+}  // namespace posevote::poses

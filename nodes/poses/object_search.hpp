@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The search for one object in a scan: of many proposed poses the one that agrees best with what is
+// left of the scan, refined by ICP. README.md in this folder tells the whole story.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "nodes/poses/pool.hpp"
+#include "nodes/poses/schedule.hpp"
+
+namespace posevote::poses {
+
+/// Where poses come from.
+struct Proposals {
+  /// Poses to judge of the scan as it is now, the best supported first; many may be alike.
+  std::function<std::vector<Hypothesis>()> propose;
+  Improve improve;
+};
+
+/// An object to look for. Searches of different objects may go on side by side.
+class ObjectSearch {
+ public:
+  /// Keeps what `sought` refers to.
+  ObjectSearch(const Sought& sought, Proposals proposals);
+
+  const Model& model() const { return sought_.model; }
+  const InstanceParams& params() const { return sought_.params; }
+  /// The best pose when last asked for; none where all were below the threshold.
+  const std::optional<Candidate>& best() const { return best_; }
+  /// Whether `best` is of the scan as it is now. If not, its quality is about an upper bound,
+  /// because points that were taken out support nothing any more; but a pose that a twin displaced
+  /// may return.
+  bool is_current() const { return chosen_at_ == sought_.scan.takes; }
+  /// Whether all instances that may be are found.
+  bool is_full() const { return accepted_ == sought_.params.max_instances; }
+  /// Whether other poses may be proposed for the scan as it is now.
+  bool may_propose() const { return !is_full() && proposed_at_ != sought_.scan.takes; }
+
+  /// Has poses proposed for the scan as it is now, and chooses.
+  void propose();
+  /// Chooses among the poses that are left of those that were proposed.
+  void choose();
+  /// Makes `best` an instance, whose neighbourhood is closed to others of this object. To be called
+  /// before what it explains is taken out of the scan.
+  void accept();
+
+ private:
+  std::optional<Candidate> best_finalist();
+  std::optional<Candidate> best_of(Candidates::const_iterator begin,
+                                   Candidates::const_iterator end) const;
+
+  Sought sought_;
+  Proposals proposals_;
+  Candidates pool_;  ///< the best first, as far as they were judged
+  std::optional<Candidate> best_;
+  TakenPlaces taken_;
+  int accepted_ = 0;
+  int proposed_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then
+};
+
+}  // namespace posevote::poses

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/pool.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "nodes/poses/score.hpp"
+#include "nodes/poses/separation.hpp"
+
+namespace posevote::poses {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+Separation proposed_separation(const Sought& sought) {
+  const PoolTerms& terms = sought.terms.pool;
+  return {sought.params.nms_radius / static_cast<float>(terms.proposed_fineness),
+          static_cast<float>(terms.proposed_angle * kDegree), terms.proposed_per_place};
+}
+
+Separation judged_separation(const Sought& sought) {
+  const PoolTerms& terms = sought.terms.pool;
+  return {sought.params.nms_radius, static_cast<float>(terms.judged_angle * kDegree),
+          terms.judged_per_place};
+}
+
+}  // namespace
+
+void TakenPlaces::take(const Model& model, const Candidate& instance) {
+  centers_.push_back(instance.proposed.center);
+  centers_.push_back(posed_center(instance.T_scene_model, model.center).cast<float>());
+}
+
+bool TakenPlaces::is_clear(const Eigen::Vector3f& center) const {
+  return std::all_of(centers_.begin(), centers_.end(), [&](const Eigen::Vector3f& other) {
+    return (center - other).norm() > radius_;
+  });
+}
+
+bool TakenPlaces::is_clear(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
+  return is_clear(Eigen::Vector3f(posed_center(T_scene_model, model.center).cast<float>()));
+}
+
+Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken) {
+  constexpr double kSomeSupport = 1e-9;  // never divides by 0
+  std::erase_if(proposals, [&](const Hypothesis& one) { return !taken.is_clear(one.center); });
+  Candidates pool;
+  sought.most_support = kSomeSupport;
+  for (const std::size_t i :
+       separate_poses(proposals, proposed_separation(sought), sought.params.candidates)) {
+    propose_as(sought, proposals[i], pool.emplace_back());
+    sought.most_support = std::max(sought.most_support, proposals[i].support);
+  }
+  return pool;
+}
+
+void propose_as(const Sought& sought, const Hypothesis& hypothesis, Candidate& candidate) {
+  candidate.proposed = hypothesis;
+  candidate.T_scene_model = T_scene_model_of(hypothesis, sought.model.center);
+}
+
+void leave_out_likes(const Sought& sought, Candidates& pool) {
+  const Separation separation = judged_separation(sought);
+  std::vector<Hypothesis> proposed;
+  for (const Candidate& candidate : pool) proposed.push_back(candidate.proposed);
+  Candidates kept;
+  for (const std::size_t i : separate_poses(proposed, separation, proposed.size())) {
+    Candidate& candidate = kept.emplace_back(std::move(pool[i]));
+    for (const Hypothesis& like : proposed)
+      if (is_like(like, proposed[i], separation))
+        candidate.proposed.support = std::max(candidate.proposed.support, like.support);
+    grade(sought, candidate);
+  }
+  pool.swap(kept);
+  sort_by_rank(pool.begin(), pool.end());
+}
+
+}  // namespace posevote::poses

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/scan_state.hpp"
+
+#include "nodes/data/hypotheses.hpp"
+#include "nodes/poses/explain_points.hpp"
+
+namespace posevote::poses {
+namespace {
+
+constexpr float kSearchCell = 2;  // x resolution; of the index, changes no result
+
+}  // namespace
+
+ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float resolution_m,
+                     const Terms& terms)
+    : cloud(scan),
+      features(scan_features),
+      resolution(resolution_m),
+      view(scan, resolution_m, terms.view),
+      surface(scan, view.usable(), kSearchCell * resolution_m, terms.surface),
+      feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0) {}
+
+void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                         float distance) {
+  ++takes;
+  const geometry::PointGrid grid(model.cloud.points, distance);
+  surface.take_out(
+      explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance));
+  const std::vector<char> now =
+      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
+}
+
+double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
+  return (posed_center(T_scene_model, model.center) - cloud.viewpoint.cast<double>()).norm();
+}
+
+std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                                       float distance) const {
+  const geometry::PointGrid grid(model.cloud.points, distance);
+  const std::vector<char> now =
+      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) count += now[i] != 0 && feature_explained[i] == 0;
+  return count;
+}
+
+}  // namespace posevote::poses

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scan as the segmentation goes on: what has been explained, what is left.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "nodes/data/model.hpp"
+#include "nodes/geometry/range_view.hpp"
+#include "nodes/geometry/scan_surface.hpp"
+#include "nodes/poses/terms.hpp"
+#include "nodes/poses/usual_residual.hpp"
+
+namespace posevote::poses {
+
+struct ScanState {
+  /// Keeps references to scan and features.
+  ScanState(const Cloud& scan, const FeatureSet& scan_features, float resolution_m,
+            const Terms& terms = {});
+
+  /// Takes what a posed model explains, up to `distance` [m] from its surface, out of the scan's
+  /// points and features. Free space stays what it is: `view` keeps all points.
+  void take_out(const Model& model, const Eigen::Isometry3d& T_scene_model, float distance);
+  /// How many features that nothing explained yet would a posed model explain.
+  std::size_t count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                              float distance) const;
+
+  /// How far a posed model's centre is from the sensor [m].
+  double range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
+
+  const Cloud& cloud;
+  const FeatureSet& features;
+  float resolution;  // [m]
+  geometry::RangeView view;
+  geometry::ScanSurface surface;
+  std::vector<char> feature_explained;  // per scene feature
+  int takes = 0;                        // how often something was taken out
+  UsualResidual usual_residual;         // of what was found
+};
+
+}  // namespace posevote::poses

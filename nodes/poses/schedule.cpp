@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/schedule.hpp"
+
+#include <algorithm>
+
+#include "graph/parallel.hpp"
+#include "nodes/poses/pool.hpp"
+#include "nodes/poses/refinement.hpp"
+#include "nodes/poses/score.hpp"
+
+namespace posevote::poses {
+
+void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::size_t end,
+                Eigen::Index points) {
+  graph::parallel_for(end - begin, 1,
+                      [&](std::size_t i) { judge(sought, pool[begin + i], points); });
+  sort_by_rank(pool.begin(), pool.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+void make_shortlist(const Sought& sought, Candidates& pool) {
+  const auto places = static_cast<std::size_t>(sought.terms.schedule.shortlist);
+  if (pool.size() <= places) return;
+  judge_part(sought, pool, 0, pool.size(), sought.terms.schedule.glance_points);
+  pool.resize(places);
+}
+
+void sketch(const Sought& sought, Candidates& pool, const Improve& improve) {
+  graph::parallel_for(pool.size(), 1, [&](std::size_t i) {
+    propose_as(sought, improve(pool[i].proposed), pool[i]);
+  });
+  judge_part(sought, pool, 0, pool.size(), sought.terms.schedule.sketch_points);
+}
+
+void bring_closer(const Sought& sought, Candidates& pool) {
+  if (!sought.params.refine) return;
+  const ScheduleTerms& terms = sought.terms.schedule;
+  const std::size_t count = std::min(static_cast<std::size_t>(terms.promising), pool.size());
+  graph::parallel_for(count, 1, [&](std::size_t i) { take_first_steps(sought, pool[i]); });
+  judge_part(sought, pool, 0, count, terms.sketch_points);
+  sort_by_rank(pool.begin(), pool.end());
+}
+
+void bring_finalists_forward(const Sought& sought, Candidates& pool) {
+  const auto finalists = static_cast<std::size_t>(sought.terms.schedule.finalists);
+  const std::size_t batch = 2 * finalists;
+  for (std::size_t done = 0; done < pool.size();) {
+    const std::size_t end = std::min(done + batch, pool.size());
+    judge_part(sought, pool, done, end, sought.terms.schedule.look_points);
+    done = end;
+    if (done < pool.size() && pool[finalists - 1].rank >= pool[done].rank) break;
+  }
+  std::erase_if(pool, [](const Candidate& candidate) { return candidate.quality == 0; });
+}
+
+Candidates::iterator refine_best(const Sought& sought, Candidates& sorted) {
+  const ScheduleTerms& terms = sought.terms.schedule;
+  const std::size_t most = std::min(static_cast<std::size_t>(terms.finalists), sorted.size());
+  std::size_t count = 0;
+  while (count < most && sorted[count].rank >= terms.hopeless * sorted[0].rank &&
+         sorted[count].quality >= terms.hopeless * sought.params.min_score)
+    ++count;
+  graph::parallel_for(count, 1, [&](std::size_t i) { refine(sought, sorted[i]); });
+  return sorted.begin() + static_cast<std::ptrdiff_t>(count);
+}
+
+}  // namespace posevote::poses

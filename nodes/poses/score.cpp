@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posevote::poses {
+
+Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Eigen::Index points) {
+  return measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
+                     sought.scan.view, T_scene_model, sought.params.tolerance, points,
+                     sought.terms.fit);
+}
+
+void grade(const Sought& sought, Candidate& candidate) {
+  candidate.quality = fit_quality(candidate.fit, sought.terms.fit);
+  if (candidate.is_refined) candidate.quality *= exactness(sought, candidate);
+  candidate.rank = candidate.quality * std::pow(candidate.proposed.support / sought.most_support,
+                                                sought.terms.score.trust_in_support);
+}
+
+void judge(const Sought& sought, Candidate& candidate, Eigen::Index points) {
+  candidate.fit = measure(sought, candidate.T_scene_model, points);
+  grade(sought, candidate);
+}
+
+bool is_convincing(const Sought& sought, Candidate& candidate) {
+  if (sought.votes_per_correspondence > 0) candidate.consensus = consensus(sought, candidate);
+  return candidate.score() > 0 && candidate.score() >= sought.params.min_score;
+}
+
+double exactness(const Sought& sought, const Candidate& candidate) {
+  const InstanceParams& params = sought.params;
+  if (!params.refine || params.max_residual == 0) return 1;  // rough poses leave more than noise
+  const ScoreTerms& terms = sought.terms.score;
+  return sought.scan.usual_residual.exactness(
+      candidate.fit, sought.scan.range_of(sought.model, candidate.T_scene_model),
+      {params.max_residual, terms.sampled_residual * static_cast<double>(params.tolerance),
+       terms.least_exactness});
+}
+
+/// The fit tells how much of the surface is there, the consensus how many of the features on it had
+/// voted for the pose before anybody looked.
+double consensus(const Sought& sought, const Candidate& candidate) {
+  const ScoreTerms& terms = sought.terms.score;
+  const std::size_t explained =
+      sought.scan.count_explained(sought.model, candidate.T_scene_model, sought.params.tolerance);
+  const double votes = static_cast<double>(std::max<std::size_t>(1, explained)) *
+                       sought.votes_per_correspondence / terms.usual_votes;
+  const double share = candidate.proposed.support / votes;
+  return std::pow(std::min(1.0, share), terms.trust_in_consensus);
+}
+
+}  // namespace posevote::poses

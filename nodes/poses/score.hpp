@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The grades of a pose (candidate.hpp says what they are called). Whatever proposes poses is graded
+// by the same rules.
+#pragma once
+
+#include "nodes/poses/candidate.hpp"
+#include "nodes/poses/sought.hpp"
+
+namespace posevote::poses {
+
+/// How the scan, as it is now, agrees with a pose: by about so many model points, 0 for all.
+Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Eigen::Index points);
+
+/// Sets quality and rank from the fit.
+void grade(const Sought& sought, Candidate& candidate);
+
+/// Measures the fit by some model points, and grades.
+void judge(const Sought& sought, Candidate& candidate, Eigen::Index points);
+
+/// Whether it reaches min_score, by its quality and its consensus, which this sets.
+bool is_convincing(const Sought& sought, Candidate& candidate);
+
+/// In [least_exactness, 1], by the instances of all objects that were found before.
+double exactness(const Sought& sought, const Candidate& candidate);
+
+/// In [0, 1], from the support per feature of the scan that the pose explains.
+double consensus(const Sought& sought, const Candidate& candidate);
+
+}  // namespace posevote::poses

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/segment_params.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace posevote::poses {
+namespace {
+
+/// A point set without a normal for each point is refused; a normal of length 0 is not.
+void check_normals(const std::string& what, const PointMatrix& points, const PointMatrix& normals) {
+  if (normals.rows() == points.rows()) return;
+  throw std::runtime_error(what + " has " + std::to_string(points.rows()) + " points but " +
+                           std::to_string(normals.rows()) + " normals");
+}
+
+}  // namespace
+
+InstanceParams instance_params(const SegmentParams& params, const Model& model, float resolution) {
+  const auto length = [&](double multiple) { return static_cast<float>(multiple) * resolution; };
+  InstanceParams out;
+  out.max_instances = params.max_instances;
+  out.candidates = static_cast<std::size_t>(params.candidates);
+  out.min_score = params.min_score;
+  out.nms_radius = static_cast<float>(params.nms) * model.diagonal;
+  out.refine = params.refine;
+  out.icp_iterations = params.icp_iterations;
+  out.icp_distance = length(params.icp_distance);
+  out.tolerance = length(params.inlier_distance);
+  out.explained_distance = length(params.explained_distance);
+  out.max_residual = params.max_residual;
+  return out;
+}
+
+Detection make_detection(const Model& model, const Candidate& candidate) {
+  Detection detection;
+  detection.obj_id = model.obj_id;
+  detection.model = model.name;
+  detection.score = candidate.score();
+  detection.inlier_fraction = candidate.fit.inlier_fraction;
+  detection.rmse = candidate.fit.rmse;
+  detection.T_scene_model = candidate.T_scene_model;
+  return detection;
+}
+
+void check_scan(const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale) {
+  if (!(scale.resolution > 0) || !std::isfinite(scale.resolution))
+    throw std::runtime_error("resolution is " + std::to_string(scale.resolution) +
+                             " m, expected more than 0");
+  check_normals("the scan", scene_cloud.points, scene_cloud.normals);
+  check_normals("the feature set", scene_features.points, scene_features.normals);
+}
+
+void check_model(const Model& model) {
+  check_normals("model " + model.name, model.cloud.points, model.cloud.normals);
+  if (model.outline.ends.size() != static_cast<std::size_t>(model.cloud.points.rows()))
+    throw std::runtime_error("model " + model.name + " has " +
+                             std::to_string(model.cloud.points.rows()) + " points but " +
+                             std::to_string(model.outline.ends.size()) + " in its outline");
+  for (const NearSymmetry& one : model.near_symmetries.items)
+    if (!one.is_within(model.cloud.points.rows()))
+      throw std::runtime_error("model " + model.name + " has " +
+                               std::to_string(model.cloud.points.rows()) +
+                               " points, but its near symmetries are of a cloud with more");
+}
+
+graph::Registration<SegmentParams> with_segment_params(graph::Registration<SegmentParams> node) {
+  using P = SegmentParams;
+  node.param("max_instances", &P::max_instances, "", "Instances per object, at most.",
+             graph::in_range(1, 1000));
+  node.param("candidates", &P::candidates, "",
+             "Densest modes of which the instances are chosen; 1: the densest, as in the paper.",
+             graph::in_range(1, 10000));
+  node.param("nms", &P::nms, "x diagonal",
+             "Instances of one object lie farther apart than this share of its bounding box.",
+             graph::in_range(0, 10));
+  node.param("min_density", &P::min_density, "votes",
+             "A mode of lower density (of the votes that are left) is not tried.",
+             graph::at_least(0));
+  node.param("min_score", &P::min_score, "", "Detections of lower score are rejected.",
+             graph::in_range(0, 1));
+  node.param("refine", &P::refine, "", "Whether modes are refined by ICP.");
+  node.param("icp_distance", &P::icp_distance, "x resolution",
+             "Search radius of ICP's first iteration; it shrinks to inlier_distance.",
+             graph::in_range(0.1, 100));
+  node.param("icp_iterations", &P::icp_iterations, "", "Iterations of ICP, at most.",
+             graph::in_range(1, 1000));
+  node.param("inlier_distance", &P::inlier_distance, "x resolution",
+             "A model point with a scan point this near is supported.", graph::in_range(0.1, 100));
+  node.param("explained_distance", &P::explained_distance, "x resolution",
+             "Scan points this near to a detection are taken out.", graph::in_range(0.1, 100));
+  node.param("max_residual", &P::max_residual, "x usual",
+             "An instance that leaves more than this many times the residual of the scan's others "
+             "loses score by the square: a look-alike. 0: none does.",
+             graph::in_range(0, 1000));
+  add_terms(node);
+  return node;
+}
+
+}  // namespace posevote::poses

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parameters that every segmentation shares, whatever proposes the poses.
+#pragma once
+
+#include "graph/registry.hpp"
+#include "nodes/data/detections.hpp"
+#include "nodes/poses/find_instances.hpp"
+
+namespace posevote::poses {
+
+constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_density means
+
+struct SegmentParams {
+  int max_instances = 1;
+  int candidates = 1000;
+  double nms = 0.1;
+  double min_density = 3;
+  double min_score = 0.3;
+  bool refine = true;
+  double icp_distance = 5;
+  int icp_iterations = 40;
+  double inlier_distance = 2;
+  double explained_distance = 3;
+  double max_residual = 1.5;
+  Terms terms;
+};
+
+/// The lengths for one object [m].
+InstanceParams instance_params(const SegmentParams& params, const Model& model, float resolution);
+
+/// Densities are for the caller to fill in.
+Detection make_detection(const Model& model, const Candidate& candidate);
+
+/// Throws std::runtime_error where the resolution is no length, or points lack normals.
+void check_scan(const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale);
+void check_model(const Model& model);
+
+/// Registers them all, the terms for experts.
+graph::Registration<SegmentParams> with_segment_params(graph::Registration<SegmentParams> node);
+
+/// The terms alone (term_params.cpp).
+void add_terms(graph::Registration<SegmentParams>& node);
+
+}  // namespace posevote::poses

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "nodes/poses/scan_state.hpp"
+#include "nodes/poses/terms.hpp"
+
+namespace posevote::poses {
+
+/// The rules for one object; lengths in m.
+struct InstanceParams {
+  int max_instances = 1;
+  std::size_t candidates = 1;  ///< poses that are judged
+  double min_score = 0;
+  float nms_radius = 0;          ///< between the centres of instances [m]
+  bool refine = true;            ///< by ICP
+  int icp_iterations = 40;       ///< at most
+  float icp_distance = 0;        ///< search radius of the first iteration [m]
+  float tolerance = 0;           ///< of support [m]
+  double max_residual = 0;       ///< x usual; what leaves more is less exact. 0: nothing is
+  float explained_distance = 0;  ///< scan points this near to an instance are taken out [m]
+};
+
+/// What is looked for, where, and by which rules.
+struct Sought {
+  const Model& model;
+  const ScanState& scan;
+  InstanceParams params;
+  const Terms& terms;
+  /// How many votes a correspondence casts, if a pose's support is their density: then it counts in
+  /// the score. 0: rivals' own measures differ in scale, and the quality alone makes their score.
+  std::uint32_t votes_per_correspondence = 0;
+  double most_support = 1;  ///< of the poses that are compared
+};
+
+}  // namespace posevote::poses

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each term is, where its value comes from, and what it costs to change. The values stand in
+// terms.hpp and where that points to. Where no origin is said, the value was found by trying it on
+// simulated and real scans (laser scans of UWA and Queen's, RGB-D of bins and households).
+#include "nodes/poses/segment_params.hpp"
+
+namespace posevote::poses {
+namespace {
+
+using graph::at_least;
+using graph::greater_than;
+using graph::in_range;
+using Node = graph::Registration<SegmentParams>;
+
+/// Registers members of one group of terms.
+template <class Group>
+struct Register {
+  Node& node;
+  Group Terms::*group;
+
+  template <class T>
+  void operator()(const char* name, T Group::*member, const char* unit, const char* doc,
+                  graph::Constraint constraint) const {
+    const auto access = [group = group, member](SegmentParams& params) -> T& {
+      return params.terms.*group.*member;
+    };
+    node.expert_param(name, access, unit, doc, std::move(constraint));
+  }
+};
+
+void add_schedule(Node& node) {
+  using G = ScheduleTerms;
+  const Register<G> term{node, &Terms::schedule};
+  term("shortlist", &G::shortlist, "poses",
+       "Improved and sketched. As many as keep the true pose of a thing hardly seen; time grows "
+       "with it, by a neighbourhood query each.",
+       in_range(1, 10000));
+  term("promising", &G::promising, "poses", "Brought closer by coarse ICP. Time grows with it.",
+       in_range(0, 10000));
+  term("finalists", &G::finalists, "poses",
+       "Refined by ICP. Of more than four hardly any wins; time grows with it.", in_range(1, 1000));
+  term("glance_points", &G::glance_points, "points",
+       "Model points that judge a proposal as it came. Fewer are quicker, "
+       "and lose true poses.",
+       in_range(1, 1000000));
+  term("sketch_points", &G::sketch_points, "points",
+       "Model points that judge an improved one, and one brought closer.", in_range(1, 1000000));
+  term("look_points", &G::look_points, "points",
+       "Model points that judge what may be a finalist, and what ICP must not lose.",
+       in_range(1, 1000000));
+  term("close_points", &G::close_points, "points", "Model points that judge a refined pose.",
+       in_range(1, 1000000));
+  term("hopeless", &G::hopeless, "x needed",
+       "Poses of lower rank than this share of the best, or of min_score, are not refined: ICP "
+       "seldom raises a quality fourfold. 0 refines all finalists, at their cost.",
+       in_range(0, 1));
+}
+
+void add_pool(Node& node) {
+  using G = PoolTerms;
+  const Register<G> term{node, &Terms::pool};
+  term("proposed_fineness", &G::proposed_fineness, "",
+       "Poses are proposed this many times as densely as instances may lie (nms).",
+       greater_than(0));
+  term("proposed_angle", &G::proposed_angle, "deg",
+       "And turned by at least this, unless they lie apart.", in_range(0, 180));
+  term("proposed_per_place", &G::proposed_per_place, "poses", "And this many of a place, at most.",
+       in_range(1, 1000));
+  term("judged_angle", &G::judged_angle, "deg",
+       "Once judged, poses of a place are the same unless turned by more. What "
+       "is seen of a true pose never is off by as much after ICP.",
+       in_range(0, 180));
+  term("judged_per_place", &G::judged_per_place, "poses", "And this many of a place stay, at most.",
+       in_range(1, 1000));
+}
+
+void add_fit(Node& node) {
+  using G = FitTerms;
+  const Register<G> term{node, &Terms::fit};
+  term("clear_distance", &G::clear_distance, "x inlier_distance",
+       "A surface this far before or behind a model point hides or contradicts it. Smaller lets "
+       "noise contradict true poses, larger lets wrong ones pass.",
+       at_least(0));
+  term("mismatch_weight", &G::mismatch_weight, "points",
+       "What a model point counts against a pose where another surface, or none, was "
+       "measured. Noise, clutter in contact and drop-outs do that to true poses: half.",
+       at_least(0));
+  term("convincing", &G::convincing, "inliers x clues",
+       "Inlier fraction times clues at which evidence is 63 %. False poses on flat ground reach "
+       "0.0024, true ones 0.1 to 0.35 in bins; on laser scans 0.045 and 0.12 to 0.37. Larger asks "
+       "more of what is hidden or flat.",
+       greater_than(0));
+  term("outline_weight", &G::outline_weight, "x relief",
+       "What the outline counts as a clue, beside relief. All that shows the pose "
+       "of a flat side.",
+       at_least(0));
+  term("few_ends", &G::few_ends, "of all looks",
+       "An outline shorter than this says less against a pose.", greater_than(0));
+}
+
+void add_score(Node& node) {
+  using G = ScoreTerms;
+  const Register<G> term{node, &Terms::score};
+  term("sampled_residual", &G::sampled_residual, "x inlier_distance",
+       "Residual that the points' own distances may leave where there is no noise.", at_least(0));
+  term("least_exactness", &G::least_exactness, "",
+       "No residual costs more of the quality: a model that is worse than the others leaves more, "
+       "too.",
+       in_range(0, 1));
+  term("trust_in_support", &G::trust_in_support, "exponent",
+       "Of relative support in the rank: at 0.1 a pose of a hundredth of the best one's needs a "
+       "quality 1.6 times as high. True instances differ much in how much is seen of them.",
+       in_range(0, 10));
+  term("trust_in_consensus", &G::trust_in_consensus, "exponent",
+       "Of the consensus in the score. Measured on simulated and real RGB-D scans: support per "
+       "feature on the posed model is 0.2 to 1.2 for true poses, seldom below 0.05, and 0.02 to "
+       "0.1 for shapes that only look alike from one side.",
+       in_range(0, 10));
+  term("usual_votes", &G::usual_votes, "votes",
+       "Per correspondence, for which the consensus was measured: a rotation every "
+       "6 deg.",
+       greater_than(0));
+}
+
+void add_refinement(Node& node) {
+  using G = RefinementTerms;
+  const Register<G> term{node, &Terms::refinement};
+  term("coarse_steps", &G::coarse_steps, "steps",
+       "Of the ICP that brings promising poses closer. Shows which of them get better.",
+       in_range(0, 1000));
+  term("coarse_points", &G::coarse_points, "points",
+       "Model points of that ICP. Time grows with it.", in_range(10, 1000000));
+  term("coarse_still", &G::coarse_still, "x inlier_distance", "A shorter step ends that ICP.",
+       at_least(0));
+  term("full_points", &G::full_points, "points",
+       "Model points of the ICP of finalists. Time grows with it.", in_range(10, 1000000));
+  term("full_still", &G::full_still, "x inlier_distance", "A shorter step ends that ICP.",
+       at_least(0));
+  term("polish_points", &G::polish_points, "points",
+       "Model points of the last ICP: how exactly a detection lies. Time grows with it.",
+       in_range(10, 10000000));
+  term("polish_still", &G::polish_still, "x inlier_distance", "A shorter step ends that ICP.",
+       at_least(0));
+  term("kept_support", &G::kept_support, "of support",
+       "ICP is undone where it keeps less: a few chance partners at the silhouette may go.",
+       in_range(0, 1));
+}
+
+void add_twins(Node& node) {
+  const Register<TwinTerms> term{node, &Terms::twins};
+  term("telling", &TwinTerms::telling, "standard deviations",
+       "By which one of two poses that look alike must lead where they differ, were the points "
+       "independent. Less lets noise decide, more the ranks.",
+       at_least(0));
+}
+
+void add_shift(Node& node) {
+  using S = density::ShiftTerms;
+  const Register<S> term{node, &Terms::shift};
+  term(
+      "most_shifts", &S::most_shifts, "steps",
+      "Of mean shift, by which modes leave the raster of the votes; a neighbourhood query each. 0: "
+      "they stay.",
+      in_range(0, 1000));
+  term("shift_still", &S::still, "x bandwidths", "A shorter shift ends it.", at_least(0));
+}
+
+void add_surface(Node& node) {
+  using F = geometry::SurfaceTerms;
+  const Register<F> term{node, &Terms::surface};
+  term("least_facing_cosine", &F::least_facing_cosine, "",
+       "Between a model point's normal and its ray: sensors measure more grazing surfaces badly or "
+       "not at all.",
+       in_range(0, 0.99));
+  term("least_normal_cosine", &F::least_normal_cosine, "",
+       "Between the normals of model and scan where they agree: 45 deg.", in_range(-1, 0.99));
+}
+
+void add_icp(Node& node) {
+  using G = geometry::IcpTerms;
+  const Register<G> term{node, &Terms::icp};
+  term("icp_few_points", &G::few_points, "points",
+       "Model points that show ICP the way as long as steps are long.", in_range(10, 1000000));
+  term("icp_few_until", &G::few_until, "of iterations",
+       "So long the few show the way, at most. 0: all points from the start, at their cost.",
+       in_range(0, 1));
+  term("icp_slow", &G::slow, "x inlier_distance", "A shorter step calls for the many.",
+       at_least(0));
+  term("icp_fewest_pairs", &G::fewest_pairs, "pairs",
+       "Fewer points with a partner end ICP: six hold a pose, if they lie well.",
+       in_range(6, 1000000));
+  term("icp_shrink", &G::shrink, "",
+       "Of the search radius, per iteration. Slower finds poses from farther "
+       "away, and takes longer.",
+       in_range(0.01, 1));
+  term("icp_unobserved", &G::unobserved, "of the weight",
+       "Eigenvalue below which a direction is not moved: on a plane, about a sphere.",
+       in_range(0, 1));
+  term("icp_damping", &G::damping, "of the weight",
+       "Added to eigenvalues (Levenberg) as long as chance partners are many.", at_least(0));
+  term("icp_final_damping", &G::final_damping, "of the weight",
+       "Once the search radius is the last.", at_least(0));
+  term("icp_most_turn", &G::most_turn, "rad", "Per iteration: what the step was linearised for.",
+       greater_than(0));
+}
+
+void add_view(Node& node) {
+  using G = geometry::ViewTerms;
+  const Register<G> term{node, &Terms::view};
+  term("view_trusted", &G::trusted, "of the points",
+       "So many must face the sensor and lie in its image, or the scan is no single view and free "
+       "space is unknown.",
+       in_range(0, 1));
+  term("view_least_mean_cosine", &G::least_mean_cosine, "",
+       "Of the rays to their mean; less, and it is no single view.", in_range(0, 1));
+  term("view_least_axis_cosine", &G::least_axis_cosine, "", "A plane image ends there: 75 deg.",
+       in_range(0.01, 1));
+  term("view_footprint", &G::footprint, "x resolution",
+       "Half-width that a point covers in the range image: neighbours overlap. "
+       "Smaller leaves holes, "
+       "larger widens silhouettes.",
+       at_least(0));
+  term("view_most_cells", &G::most_cells, "cells", "Of the range image, per side. Bounds memory.",
+       in_range(1, 20000));
+  term("view_most_half_cells", &G::most_half_cells, "cells",
+       "Half-width of a point in it, at most: one right before the sensor does not fill it. Bounds "
+       "time.",
+       in_range(0, 1000));
+}
+
+}  // namespace
+
+void add_terms(graph::Registration<SegmentParams>& node) {
+  add_schedule(node);
+  add_pool(node);
+  add_fit(node);
+  add_score(node);
+  add_refinement(node);
+  add_twins(node);
+  add_shift(node);
+  add_surface(node);
+  add_icp(node);
+  add_view(node);
+}
+
+}  // namespace posevote::poses

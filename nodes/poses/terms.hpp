@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every constant by which poses are judged, refined and chosen, in one place. Each is a parameter
+// for experts of segment_objects and segment_hypotheses; term_params.cpp says for each its unit,
+// what it does, where its value comes from and what it costs to change. `posevote experiment
+// ablation` measures what each brings.
+#pragma once
+
+#include "nodes/density/refine_mode.hpp"
+#include "nodes/geometry/icp.hpp"
+#include "nodes/geometry/range_view.hpp"
+#include "nodes/geometry/scan_surface.hpp"
+
+namespace posevote::poses {
+
+/// How many poses get how much attention (schedule.hpp).
+struct ScheduleTerms {
+  int shortlist = 80, promising = 20, finalists = 4;
+  int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
+  double hopeless = 0.25;
+};
+
+/// Which poses are the same (pool.hpp).
+struct PoolTerms {
+  double proposed_fineness = 3;
+  double proposed_angle = 30;
+  int proposed_per_place = 6;
+  double judged_angle = 60;
+  int judged_per_place = 3;
+};
+
+/// What the scan says of a pose (measure_fit.hpp).
+struct FitTerms {
+  double clear_distance = 2;
+  double mismatch_weight = 0.5;
+  double convincing = 0.1;
+  double outline_weight = 3;
+  double few_ends = 0.02;
+};
+
+/// What else counts in its grades (score.hpp).
+struct ScoreTerms {
+  double sampled_residual = 0.15;
+  double least_exactness = 0.6;
+  double trust_in_support = 0.1;
+  double trust_in_consensus = 0.15;
+  double usual_votes = 60;
+};
+
+/// How far it is refined (refinement.hpp).
+struct RefinementTerms {
+  int coarse_steps = 4;
+  int coarse_points = 100, full_points = 1000, polish_points = 10000;
+  double coarse_still = 0.1, full_still = 0.02, polish_still = 2e-3;
+  double kept_support = 0.95;
+};
+
+/// When one of two look-alikes leads (twins.hpp).
+struct TwinTerms {
+  double telling = 2;
+};
+
+struct Terms {
+  ScheduleTerms schedule;
+  PoolTerms pool;
+  FitTerms fit;
+  ScoreTerms score;
+  RefinementTerms refinement;
+  TwinTerms twins;
+  density::ShiftTerms shift;
+  geometry::IcpTerms icp;
+  geometry::SurfaceTerms surface;
+  geometry::ViewTerms view;
+};
+
+}  // namespace posevote::poses

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/twins.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "graph/parallel.hpp"
+#include "nodes/poses/schedule.hpp"
+#include "nodes/poses/score.hpp"
+
+namespace posevote::poses {
+namespace {
+
+Candidates make_twins(const Sought& sought, const Candidate& candidate) {
+  const std::vector<NearSymmetry>& near = sought.model.near_symmetries.items;
+  Candidates twins(near.size(), candidate);
+  graph::parallel_for(twins.size(), 1, [&](std::size_t i) {
+    twins[i].is_refined = false;
+    twins[i].near_symmetry = i;
+    twins[i].T_scene_model = candidate.T_scene_model * near[i].motion;
+    judge(sought, twins[i], sought.terms.schedule.look_points);
+  });
+  sort_by_rank(twins.begin(), twins.end());
+  return twins;
+}
+
+}  // namespace
+
+Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken) {
+  Candidates twins = make_twins(sought, candidate);
+  twins.erase(refine_best(sought, twins), twins.end());
+  const double telling = sought.terms.twins.telling;
+  Candidate best = candidate;
+  using Standing = std::pair<double, double>;  // what tells, then the rank
+  Standing highest{0, candidate.rank};
+  for (const Candidate& twin : twins) {
+    const double lead = lead_over(sought, candidate, twin);
+    if (lead < -telling) continue;
+    const Standing standing = lead > telling ? Standing{lead, 0} : Standing{0, twin.rank};
+    if (standing <= highest || !taken.is_clear(sought.model, twin.T_scene_model)) continue;
+    best = twin;
+    highest = standing;
+  }
+  return best;
+}
+
+double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {
+  const auto weigh = [&](const std::vector<std::uint32_t>& points, const Candidate& candidate) {
+    return weigh_points(sought.model.cloud, points, sought.scan.surface, sought.scan.view,
+                        candidate.T_scene_model, sought.params.tolerance, sought.terms.fit);
+  };
+  const NearSymmetry& symmetry = sought.model.near_symmetries.items[twin.near_symmetry];
+  const Evidence for_twin = weigh(symmetry.carried_off, twin);
+  const Evidence for_origin = weigh(symmetry.uncovered, origin);
+  const auto sides = static_cast<double>(for_twin.sides + for_origin.sides);
+  return sides > 0 ? (for_twin.balance - for_origin.balance) / std::sqrt(sides) : 0;
+}
+
+}  // namespace posevote::poses

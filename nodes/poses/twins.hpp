@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model that a motion carries nearly onto itself (a carton turned by half, a cup upside down)
+// looks alike in two poses, which get each other's votes. Where such twins differ decides between
+// them; where that says nothing, their ranks do.
+#pragma once
+
+#include "nodes/poses/candidate.hpp"
+#include "nodes/poses/pool.hpp"
+#include "nodes/poses/sought.hpp"
+
+namespace posevote::poses {
+
+/// The best of a refined pose and its twins, one for each near symmetry of the model, refined too.
+/// They share the hypothesis that proposed it; those at taken places do not compete.
+Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken);
+
+/// How much more the scan speaks for a twin than for the pose that a near symmetry made it of,
+/// where they differ, in standard deviations, were the points independent.
+double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin);
+
+}  // namespace posevote::poses

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/results_writer.hpp"
+
+#include <sys/resource.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+using namespace posevote;
+using posevote::test::read_text;
+using posevote::test::TemporaryFolder;
+
+namespace {
+
+formats::FrameReport frame(std::size_t number) {
+  return {
+      number, {"scans/a.ply", 0, static_cast<int>(number), {}}, 1.25, {{"load_scene", 0.5}}, "a"};
+}
+
+Detections one_chef() {
+  Detection found;
+  found.obj_id = 7;
+  found.model = "chef";
+  found.score = 0.5;
+  found.density = 100;
+  found.T_scene_model.linear() =
+      Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  found.T_scene_model.translation() = Eigen::Vector3d(0.1, -0.2, 1.5);
+  return {{found}};
+}
+
+nlohmann::json json(const std::filesystem::path& file) {
+  return nlohmann::json::parse(read_text(file));
+}
+
+}  // namespace
+
+TEST_CASE("a row of results.csv is BOP's: R row by row, t in mm", "[write]") {
+  const std::string row = formats::csv_rows(frame(3), one_chef());
+  int scene = 0;
+  int image = 0;
+  int object = 0;
+  double score = 0;
+  double r[9];
+  double t[3];
+  double time = 0;
+  REQUIRE(std::sscanf(row.c_str(),
+                      "%d,%d,%d,%lf,%lf %lf %lf %lf %lf %lf %lf %lf %lf,%lf %lf %lf,%lf\n", &scene,
+                      &image, &object, &score, r, r + 1, r + 2, r + 3, r + 4, r + 5, r + 6, r + 7,
+                      r + 8, t, t + 1, t + 2, &time) == 17);
+  CHECK(scene == 0);
+  CHECK(image == 3);
+  CHECK(object == 7);
+  CHECK(score == 0.5);
+  CHECK(r[1] == Approx(-1));  // first row, second column
+  CHECK(r[3] == Approx(1));
+  CHECK(t[0] == Approx(100));
+  CHECK(t[1] == Approx(-200));
+  CHECK(t[2] == Approx(1500));
+  CHECK(time == 1.25);
+}
+
+TEST_CASE("the files are complete after every frame", "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out", false);
+  formats::ResultsWriter writer(folder / "out");
+  CHECK(json(folder / "out/results.json")["frames"].empty());
+  CHECK(json(folder / "out/failures.json").empty());
+  for (std::size_t i = 0; i < 3; ++i) {
+    writer.write(frame(i), one_chef(), {{"load_scene", 1, 0.5, 0.5}});
+    const auto results = json(folder / "out/results.json");
+    REQUIRE(results["frames"].size() == i + 1);
+    CHECK(results["frames"][i]["frame"] == i);
+    CHECK(results["frames"][i]["detections"][0]["T_scene_model"][3] == 0.1);
+    CHECK(results["nodes"][0] == nlohmann::json::parse(
+                                     R"({"node": "load_scene", "calls": 1, "total_s": 0.5,
+                                         "mean_s": 0.5, "max_s": 0.5, "share": 1.0})"));
+  }
+  writer.write(formats::FailureReport{3, "scans/bad\xff.ply", "load_scene", "truncated"});
+  writer.write(formats::FailureReport{4, "b.ply", "load_scene", "empty"});
+  const auto failures = json(folder / "out/failures.json");
+  REQUIRE(failures.size() == 2);
+  CHECK(failures[1]["what"] == "empty");
+}
+
+TEST_CASE("another run's folder is not written over", "[write]") {
+  const TemporaryFolder folder;
+  CHECK(formats::begin_results(folder / "out", false).empty());
+  CHECK_THROWS_AS(formats::begin_results(folder / "out", false), std::invalid_argument);
+}
+
+TEST_CASE("resuming keeps answered frames and drops what a killed run left half written",
+          "[write]") {
+  const TemporaryFolder folder;
+  {
+    formats::begin_results(folder / "out", false);
+    formats::ResultsWriter writer(folder / "out");
+    writer.write(frame(0), one_chef(), {});
+    writer.write(frame(1), {}, {});
+    writer.write(formats::FailureReport{2, "b.ply", "load_scene", "empty"});
+  }
+  std::ofstream(folder / "out/results.csv", std::ios::app)
+      << formats::csv_rows(frame(4), one_chef()) << "0,5";
+  std::ofstream(folder / "out/results.json", std::ios::app) << "{\"frame\": 5, \"fi";
+  CHECK(formats::begin_results(folder / "out", true) == std::set<std::size_t>{0, 1});
+  CHECK(read_text(folder / "out/results.csv") ==
+        "scene_id,im_id,obj_id,score,R,t,time\n" + formats::csv_rows(frame(0), one_chef()));
+  formats::ResultsWriter(folder / "out").write(frame(2), one_chef(), {});
+  CHECK(json(folder / "out/results.json")["frames"].size() == 3);
+  CHECK(json(folder / "out/failures.json").empty());
+}
+
+TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touches a file",
+          "[write]") {
+  const TemporaryFolder folder;
+  {
+    formats::begin_results(folder / "out", false);
+    formats::ResultsWriter writer(folder / "out");
+    writer.write(frame(0), one_chef(), {});
+    writer.write(formats::FailureReport{1, "b.ply", "load_scene", "empty"});
+  }
+  std::filesystem::remove(folder / "out/results.csv");
+  CHECK_THROWS_WITH(
+      formats::begin_results(folder / "out", true, {{0, "elsewhere/other.ply"}}),
+      Catch::Contains("results.json: frame 0 is ") && Catch::Contains("now it is other.ply"));
+  CHECK(json(folder / "out/failures.json").size() == 1);
+  CHECK(!std::filesystem::exists(folder / "out/results.csv"));
+  formats::begin_results(folder / "out", true,
+                         {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
+  CHECK(read_text(folder / "out/results.csv") ==
+        "scene_id,im_id,obj_id,score,R,t,time\n" + formats::csv_rows(frame(0), one_chef()));
+}
+
+TEST_CASE("a full disk keeps what is written and names the file", "[write]") {
+  const TemporaryFolder folder;
+  formats::AppendJson list(folder / "list.json", "[", "\n]\n");
+  list.append("1");
+  const std::string before = read_text(folder / "list.json");
+  // A file-size limit stands in for the full disk: writes beyond it fail with an error.
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = old;
+  small.rlim_cur = 4000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    list.append("\"" + std::string(8000, 'x') + "\"");
+  } catch (const std::runtime_error& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &old);
+  CHECK(message.find("list.json: cannot be written") != std::string::npos);
+  CHECK(read_text(folder / "list.json") == before);
+  list.append("2");
+  CHECK(json(folder / "list.json") == nlohmann::json::parse("[1, 2]"));
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/refinement.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/nodes/poses/sought_body.hpp"
+
+using namespace posevote;
+using namespace posevote::poses;
+using namespace posevote::test;
+
+TEST_CASE("each step of the refinement brings a pose closer than the one before", "[poses]") {
+  const SoughtBody body({kBody});
+  poses::Candidate one = body.candidate(beside(0.012, 0.2));
+  const double start = distance_to_body(one.T_scene_model);
+  poses::take_first_steps(body.sought(), one);
+  const double closer = distance_to_body(one.T_scene_model);
+  CHECK(closer < 0.6 * start);
+  CHECK_FALSE(one.is_refined);
+  poses::refine(body.sought(), one);
+  const double refined = distance_to_body(one.T_scene_model);
+  CHECK(refined < 0.7 * closer);
+  CHECK(one.is_refined);
+  CHECK(one.quality > 0.8);
+  const std::size_t judged = one.fit.facing;
+  poses::polish(body.sought(), one);
+  CHECK(distance_to_body(one.T_scene_model) < 0.1 * kResolution);
+  CHECK(one.fit.facing >= judged);
+}
+
+TEST_CASE("a refined pose is judged anew, but stays where it is", "[poses]") {
+  SoughtBody body({kBody});
+  poses::Candidate one = body.candidate(beside(0));
+  poses::refine(body.sought(), one);
+  const Eigen::Isometry3d T_before = one.T_scene_model;
+  REQUIRE(one.quality > 0.8);
+  body.scan.take_out(body.model, kBody.T_scene_model, 3 * kResolution);
+  poses::refine(body.sought(), one);
+  CHECK(one.T_scene_model.matrix() == T_before.matrix());
+  CHECK(one.quality == 0);
+}
+
+TEST_CASE("ICP that loses support is undone", "[poses]") {
+  SoughtBody body({kBody});
+  const Eigen::Isometry3d start = beside(0.004, 0.05);
+  const auto refined = [&](double kept_support) {
+    body.params.terms.refinement.kept_support = kept_support;
+    poses::Candidate one = body.candidate(start);
+    poses::refine(body.sought(), one);
+    return one.T_scene_model;
+  };
+  CHECK(distance_to_body(refined(0.95)) < 0.5 * distance_to_body(start));
+  CHECK(refined(100).matrix() == start.matrix());  // as if it had lost some
+}
+
+TEST_CASE("without ICP nothing moves", "[poses]") {
+  SoughtBody body({kBody});
+  body.params.refine = false;
+  poses::Candidate one = body.candidate(beside(0.004));
+  poses::take_first_steps(body.sought(), one);
+  poses::refine(body.sought(), one);
+  poses::polish(body.sought(), one);
+  CHECK(one.T_scene_model.matrix() == beside(0.004).matrix());
+  CHECK(one.quality > 0);
+}

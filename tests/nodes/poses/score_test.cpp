@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/score.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/nodes/poses/sought_body.hpp"
+
+using namespace posevote;
+using namespace posevote::poses;
+using namespace posevote::test;
+
+TEST_CASE("a pose off by some degrees grades lower, one elsewhere has no quality", "[poses]") {
+  const SoughtBody body({kBody});
+  poses::Candidate right = body.candidate(beside(0)), turned = body.candidate(beside(0, 0.5));
+  poses::Candidate elsewhere = body.candidate(beside(0.4));
+  for (poses::Candidate* one : {&right, &turned, &elsewhere})
+    poses::judge(body.sought(), *one, 1000);
+  CHECK(right.quality > 0.8);
+  CHECK(turned.quality < 0.8 * right.quality);
+  CHECK(turned.quality > 0);
+  CHECK(elsewhere.quality == 0);
+}
+
+TEST_CASE("a pose is judged by about as many points as are asked for", "[poses]") {
+  const SoughtBody body({kBody});
+  const auto facing = [&](Eigen::Index points) {
+    return static_cast<double>(poses::measure(body.sought(), beside(0), points).facing);
+  };
+  const auto all = static_cast<double>(body.model.cloud.points.rows());
+  CHECK(facing(0) == Approx(0.45 * all).epsilon(0.05));
+  CHECK(facing(300) == Approx(0.45 * 300).epsilon(0.2));
+}
+
+TEST_CASE("less support lowers the rank, not the quality", "[poses]") {
+  SoughtBody body({kBody});
+  poses::Candidate much = body.candidate(beside(0), 100), little = body.candidate(beside(0), 1);
+  poses::Sought sought = body.sought();
+  sought.most_support = 100;
+  for (poses::Candidate* one : {&much, &little}) poses::judge(sought, *one, 0);
+  CHECK(much.quality == little.quality);
+  CHECK(much.rank == much.quality);
+  CHECK(little.rank == Approx(little.quality / 1.585).epsilon(0.001));
+  body.params.terms.score.trust_in_support = 0;
+  poses::grade(sought, little);
+  CHECK(little.rank == little.quality);
+}
+
+TEST_CASE("consensus is the share of the features there that had voted", "[poses]") {
+  const SoughtBody body({kBody});
+  poses::Sought sought = body.sought();
+  const auto features = static_cast<double>(
+      body.scan.count_explained(body.model, beside(0), sought.params.tolerance));
+  REQUIRE(features > 50);
+  sought.votes_per_correspondence = 60;
+  CHECK(poses::consensus(sought, body.candidate(beside(0), 2 * features)) == 1);
+  CHECK(poses::consensus(sought, body.candidate(beside(0), 0.1 * features)) ==
+        Approx(std::pow(0.1, 0.15)));
+  sought.votes_per_correspondence = 120;  // support grows with the votes
+  CHECK(poses::consensus(sought, body.candidate(beside(0), 0.2 * features)) ==
+        Approx(std::pow(0.1, 0.15)));
+}
+
+TEST_CASE("a pose convinces by quality and consensus, that of a rival by quality", "[poses]") {
+  SoughtBody body({kBody});
+  body.params.min_score = 0.75;
+  poses::Sought sought = body.sought();
+  poses::Candidate lonely = body.candidate(beside(0), 0.1);
+  poses::judge(sought, lonely, 0);
+  REQUIRE(lonely.quality > 0.8);
+  CHECK(poses::is_convincing(sought, lonely));
+  CHECK(lonely.score() == lonely.quality);
+  sought.votes_per_correspondence = 60;
+  CHECK_FALSE(poses::is_convincing(sought, lonely));
+  CHECK(lonely.score() < 0.5 * lonely.quality);
+}
+
+TEST_CASE("what leaves more than the instances before is less exact, once refined", "[poses]") {
+  SoughtBody body({kBody});
+  poses::Fit exact;
+  exact.supported = 100, exact.rmse = 1e-6;
+  body.scan.usual_residual.add(exact, 0.8);
+  poses::Candidate off = body.candidate(beside(0.004));
+  poses::judge(body.sought(), off, 0);
+  const double rough = off.quality;
+  off.is_refined = true;
+  REQUIRE(off.fit.rmse > 1.5 * 0.15 * 2 * kResolution);
+  poses::grade(body.sought(), off);
+  CHECK(off.quality == Approx(0.6 * rough));
+  body.params.terms.score.least_exactness = 0.8;
+  CHECK(poses::exactness(body.sought(), off) == 0.8);
+  body.params.refine = false;
+  CHECK(poses::exactness(body.sought(), off) == 1);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bumpy body in a scan, sought by the rules that the nodes have by default.
+#pragma once
+
+#include "nodes/poses/segment_params.hpp"
+#include "tests/support/bumpy_scene.hpp"
+
+namespace posevote::test {
+
+class SoughtBody {
+ public:
+  explicit SoughtBody(const std::vector<Placed>& bodies, int shape = 1)
+      : model(*bumpy_model(shape)),
+        cloud(scan_of(bodies)),
+        features(features_of(cloud)),
+        scan(cloud, features, kResolution) {
+    params.inlier_distance = 2;
+  }
+
+  poses::Sought sought() const {
+    return {model, scan, poses::instance_params(params, model, kResolution), params.terms};
+  }
+  Hypothesis hypothesis(const Eigen::Isometry3d& T_scene_model, double support = 10) const {
+    return hypothesis_of(T_scene_model, model.center, support);
+  }
+  poses::Candidate candidate(const Eigen::Isometry3d& T_scene_model, double support = 10) const {
+    poses::Candidate one;
+    one.proposed = hypothesis(T_scene_model, support);
+    one.T_scene_model = T_scene_model;
+    return one;
+  }
+
+  Model model;
+  Cloud cloud;
+  FeatureSet features;
+  poses::ScanState scan;
+  poses::SegmentParams params;
+};
+
+inline const Placed kBody{1, pose(-0.02, 0.01, 0.8, 0.7)};
+
+/// The body's pose, moved to the right and turned.
+inline Eigen::Isometry3d beside(double metres, double turn = 0) {
+  Eigen::Isometry3d T = kBody.T_scene_model;
+  T.translation().x() += metres;
+  T.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d(1, -1, 0.5).normalized()));
+  return T;
+}
+
+inline double distance_to_body(const Eigen::Isometry3d& T_scene_model) {
+  return (T_scene_model.translation() - kBody.T_scene_model.translation()).norm();
+}
+
+}  // namespace posevote::test

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/twins.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "nodes/poses/score.hpp"
+#include "tests/nodes/poses/sought_body.hpp"
+
+using namespace posevote;
+using namespace posevote::poses;
+using namespace posevote::test;
+
+namespace {
+
+/// The body proposed as its twin: `motion` carries it to where it is.
+struct Mistaken {
+  SoughtBody body{{kBody}};
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  poses::Candidate wrong, right;
+  std::vector<std::uint32_t> for_wrong, for_right;  // points that speak for one of them
+
+  Mistaken() {
+    body.params.refine = false;
+    motion.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    wrong = body.candidate(kBody.T_scene_model * motion.inverse());
+    right = body.candidate(kBody.T_scene_model);
+    for (poses::Candidate* one : {&wrong, &right}) poses::judge(body.sought(), *one, 1000);
+    for (std::uint32_t i = 0; i < body.model.cloud.points.rows(); ++i) {
+      if (balance_of(i, wrong) > 0) for_wrong.push_back(i);
+      if (balance_of(i, right) > 0) for_right.push_back(i);
+    }
+  }
+  double balance_of(std::uint32_t point, const poses::Candidate& one) const {
+    return poses::weigh_points(body.model.cloud, {point}, body.scan.surface, body.scan.view,
+                               one.T_scene_model, 2 * kResolution)
+        .balance;
+  }
+  void differ(const std::vector<std::uint32_t>& carried_off,
+              const std::vector<std::uint32_t>& uncovered) {
+    body.model.near_symmetries = {{{motion, carried_off, uncovered}}};
+  }
+  bool chooses_right() const {
+    const poses::TakenPlaces none(0);
+    return poses::best_alike(body.sought(), wrong, none)
+        .T_scene_model.isApprox(right.T_scene_model, 1e-9);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the lead counts what differs, in standard deviations", "[poses]") {
+  Mistaken setting;
+  setting.differ(setting.for_right, {});
+  const double lead = poses::lead_over(setting.body.sought(), setting.wrong, setting.right);
+  CHECK(lead == Approx(std::sqrt(double(setting.for_right.size()))));
+  setting.differ({}, setting.for_wrong);
+  const double behind = poses::lead_over(setting.body.sought(), setting.wrong, setting.right);
+  CHECK(behind == Approx(-std::sqrt(double(setting.for_wrong.size()))));
+  setting.differ({}, {});
+  CHECK(poses::lead_over(setting.body.sought(), setting.wrong, setting.right) == 0);
+}
+
+TEST_CASE("of twins, the points where they differ decide, else the rank", "[poses]") {
+  Mistaken setting;
+  CHECK_FALSE(setting.chooses_right());  // that it has a twin is not known
+  setting.differ({}, {});
+  CHECK(setting.chooses_right());
+  setting.differ({}, setting.for_wrong);
+  CHECK_FALSE(setting.chooses_right());
+  setting.body.params.terms.twins.telling = 1000;  // no lead tells
+  CHECK(setting.chooses_right());
+}
+
+TEST_CASE("a twin whose place is taken does not compete", "[poses]") {
+  Mistaken setting;
+  setting.differ(setting.for_right, {});
+  const Eigen::Isometry3d there = setting.right.T_scene_model;
+  setting.body.model.center = Eigen::Vector3f(0, 0.1F, 0);  // turning moves it
+  poses::TakenPlaces taken(0.02F);
+  taken.take(setting.body.model, setting.body.candidate(there));
+  const poses::Candidate best = poses::best_alike(setting.body.sought(), setting.wrong, taken);
+  CHECK(best.T_scene_model.matrix() == setting.wrong.T_scene_model.matrix());
+}
