@@ -48,12 +48,12 @@ struct Stage {
 
 /// What a node may know about its frame beyond its inputs.
 struct FrameContext {
-  std::uint64_t number = 0;    ///< of the frame in this run
-  std::string name;            ///< for file names: unique within a run, made from the scene's path
-  std::filesystem::path out;   ///< output folder of the run; empty where nothing is to be written
-  std::uint64_t seed = 0;      ///< the user's seed
-  std::filesystem::path file;  ///< what the frame was made from, for messages
-  std::vector<Stage> stages;  ///< all others of the plan, in its order; only for one that runs last
+  std::uint64_t number = 0;      ///< of the frame in this run
+  std::string name;              ///< for file names: unique within a run, from the scene's path
+  std::filesystem::path out;     ///< of the run's output; empty where nothing is to be written
+  std::uint64_t seed = 0;        ///< the user's seed
+  std::filesystem::path file{};  ///< what the frame was made from, for messages
+  std::vector<Stage> stages{};   ///< the other nodes, in the plan's order; for one that runs last
 };
 
 /// Why a frame has no result.
