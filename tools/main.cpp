@@ -205,9 +205,9 @@ void add_experiment(CLI::App& app, ExperimentCommand& experiment) {
       "Example:\n  posevote experiment sensitivity --dataset bunny.ply\n\n"
       "Runs our method and its rivals on one data set and prints the paper's table with ours "
       "beside\nit; CSV and plots go to --out. A run that was stopped goes on where it was.");
-  command->add_option("name", experiment.name, "sensitivity, uwa, queens, icbin or icmi")
+  command->add_option("name", experiment.name, "sensitivity, uwa, queens, icbin, icmi or ablation")
       ->required()
-      ->check(CLI::IsMember({"sensitivity", "uwa", "queens", "icbin", "icmi"}));
+      ->check(CLI::IsMember({"sensitivity", "uwa", "queens", "icbin", "icmi", "ablation"}));
   command
       ->add_option("--dataset", experiment.dataset,
                    "The real data (sensitivity: a mesh in m); default: a replica is made")
@@ -221,6 +221,10 @@ void add_experiment(CLI::App& app, ExperimentCommand& experiment) {
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
   command->add_flag("--quick", experiment.quick, "A small part of it, to see that it works");
+  command->add_option("--sets", experiment.sets, "Ablation: replicas, CONFIG=DIR for real sets")
+      ->type_name("SET");
+  command->add_option("--terms", experiment.terms, "Ablation: only these parameters")
+      ->type_name("PARAM");
 }
 
 void add_bench(CLI::App& app, BenchCommand& bench) {
