@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
+#include "tools/ablation/ablation.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -79,6 +80,7 @@ void write_report(const std::filesystem::path& base, const std::string& json,
 
 int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted) {
   const std::filesystem::path out = command.out.empty() ? "out/" + command.name : command.out;
+  if (command.name == "ablation") return ablation_experiment(command, out, interrupted);
   return command.name == "sensitivity" ? sensitivity_experiment(command, out, interrupted)
                                        : recognition_experiment(command, out, interrupted);
 }

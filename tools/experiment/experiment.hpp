@@ -18,6 +18,8 @@ struct ExperimentCommand {
   std::vector<std::string> methods;  ///< empty: all
   std::size_t every = 0;             ///< one image of so many; 0: all, or what `quick` says
   bool quick = false;
+  std::vector<std::string> sets;   ///< of ablation: replicas by config, CONFIG=DIR for real sets
+  std::vector<std::string> terms;  ///< of ablation: only these parameters; empty: all
 };
 
 /// A way from scans to poses: the wiring that stands for it.

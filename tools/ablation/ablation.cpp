@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/ablation/ablation.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include "tools/ablation/variations.hpp"
+#include "tools/simulate/simulate.hpp"
+#include "tools/write_text.hpp"
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+using ablation::Row;
+using ablation::TestSet;
+
+/// A few images of each replica: some thirty instances tell what a term is for.
+const std::map<std::string, std::size_t> kEvery = {
+    {"demo", 1}, {"uwa", 6}, {"queens", 10}, {"icbin", 30}, {"icmi", 40}};
+
+/// The replica of a config's scenes; it is made where it is not there yet, without images that
+/// nobody will look at.
+fs::path find_replica(const std::string& config, std::size_t every, const fs::path& out) {
+  const fs::path dataset = out / "replicas" / (config + "_every_" + std::to_string(every));
+  const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + config + "_scenes.yaml";
+  if (!fs::exists(spec))
+    throw std::invalid_argument("--sets " + config +
+                                ": expected one of demo, uwa, queens, icbin, " +
+                                "icmi, or CONFIG=DIR for a real set");
+  if (!fs::exists(dataset)) simulate(spec, dataset, every);
+  return dataset;
+}
+
+/// "uwa": its replica; "bop=DIR": a real set.
+TestSet find_set(const std::string& text, const ExperimentCommand& command, const fs::path& out) {
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos) {
+    const fs::path dataset = text.substr(equals + 1);
+    const std::string config = text.substr(0, equals);
+    const std::string name = dataset.filename().empty() ? config : dataset.filename().string();
+    return {name, config, dataset, std::max<std::size_t>(1, command.every)};
+  }
+  const auto known = kEvery.find(text);
+  std::size_t every = known == kEvery.end() ? 1 : known->second;
+  if (command.quick) every *= 4;
+  if (command.every > 0) every = command.every;
+  return {text, text, find_replica(text, every, out), 1};  // holds what is to be seen
+}
+
+std::vector<TestSet> find_sets(const ExperimentCommand& command, const fs::path& out) {
+  std::vector<std::string> texts = command.sets;
+  if (!command.dataset.empty())
+    texts.push_back(command.dataset.find('=') == std::string::npos ? "bop=" + command.dataset
+                                                                   : command.dataset);
+  if (texts.empty())
+    texts = command.quick ? std::vector<std::string>{"demo"}
+                          : std::vector<std::string>{"uwa", "queens", "icbin", "icmi"};
+  std::vector<TestSet> sets;
+  for (const std::string& text : texts) sets.push_back(find_set(text, command, out));
+  return sets;
+}
+
+void check_terms(const std::vector<std::string>& terms) {
+  for (const std::string& term : terms)
+    if (!ablation::is_term(term))
+      throw std::invalid_argument("--terms " + term + ": expected a parameter of " +
+                                  ablation::kSegmentation + " or " + ablation::kTraining);
+}
+
+/// A term may be out of range for one set's config and not for another's: rows of all sets alone.
+void add_outcomes(std::vector<Row>& table, const std::vector<Row>& rows) {
+  if (table.empty()) {
+    table = rows;
+    return;
+  }
+  std::erase_if(table, [&](Row& row) {
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
+      return other.term == row.term && other.change == row.change;
+    });
+    if (same == rows.end()) return true;
+    row.outcomes.push_back(same->outcomes.at(0));
+    if (row.value != same->value) row.value += ", " + same->value;
+    return false;
+  });
+}
+
+}  // namespace
+
+int ablation_experiment(const ExperimentCommand& command, const fs::path& out,
+                        const std::atomic<bool>& interrupted) {
+  check_terms(command.terms);
+  fs::create_directories(out);
+  std::vector<TestSet> sets;
+  std::vector<Row> table;
+  for (const TestSet& set : find_sets(command, out)) {
+    add_outcomes(table, ablation::ablate(set, command.terms, out / "cache", interrupted));
+    sets.push_back(set);
+    if (interrupted) return 130;
+    write_text(out / "ablation.csv", ablation::to_csv(sets, table));
+    write_text(out / "ablation.md", ablation::to_markdown(sets, table));
+  }
+  std::printf("%s\nwrote %s.{csv,md}\n", ablation::to_markdown(sets, table).c_str(),
+              (out / "ablation").c_str());
+  return 0;
+}
+
+}  // namespace posevote
