@@ -46,17 +46,6 @@ std::vector<ParamSpec> parameters(const NodeSpec& spec, bool expert) {
   return chosen;
 }
 
-/// A line that can be pasted into a pipeline, with every common parameter at its default.
-std::string example(const NodeSpec& spec) {
-  std::string in;
-  for (const Port& port : spec.inputs) in += (in.empty() ? "" : ", ") + port.name;
-  std::string text = spec.name + ": {in: [" + in + "]";
-  if (spec.output) text += ", out: " + spec.output->name;
-  for (const ParamSpec& param : parameters(spec, false))
-    text += ", " + param.name + ": " + (param.default_text.empty() ? "''" : param.default_text);
-  return text + "}";
-}
-
 /// "name", or "[a, b]" for more than one.
 std::string streams(const std::vector<std::string>& names) {
   return names.size() == 1 ? names[0] : graph::join_list(names);

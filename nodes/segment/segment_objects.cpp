@@ -23,7 +23,7 @@
 namespace posevote::segment {
 namespace {
 
-Detection poses::make_detection(const LiveVotes& object, const poses::Candidate& candidate) {
+Detection make_detection(const LiveVotes& object, const poses::Candidate& candidate) {
   const Model& model = *object.votes->model;
   Detection detection = poses::make_detection(model, candidate);
   detection.density = density::raw_density(*object.raw, candidate.proposed);
@@ -70,7 +70,7 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
   }
   Detections found;
   for (const poses::Instance& instance : poses::find_instances(searches, scan))
-    found.items.push_back(poses::make_detection(objects[instance.object], instance.candidate));
+    found.items.push_back(make_detection(objects[instance.object], instance.candidate));
   return found;
 }
 

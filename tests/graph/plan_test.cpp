@@ -176,3 +176,78 @@ TEST_CASE("a parameter may lie deeper in its Params, and be marked for experts",
   check_one(kHead + "  multiply: {in: n, out: r, offset: -1}\n",
             "test.yaml:4:37: multiply.offset: ", "must be >= 0");
 }
+
+TEST_CASE("lists and what may be unset", "[schema]") {
+  const std::string head = "inputs: [n]\nresult: r\nnodes:\n  count_letters: {in: t, out: r}\n";
+  const auto set = [](const std::string& values) {
+    return graph::effective_parameters(
+        plan_of("inputs: [n]\nresult: r\nnodes:\n  weigh: {in: n, out: t" + values +
+                "}\n  count_letters: {in: t, out: r}\n"))["weigh"];
+  };
+  using Values = std::map<std::string, std::string>;
+  CHECK(set("") ==
+        Values{{"weights", "[1, 2]"}, {"words", "[]"}, {"least", "none"}, {"most", "none"}});
+  CHECK(set(", weights: [3,  4 ,5], words: [a, b], least: 0.5, most: none") ==
+        Values{{"weights", "[3, 4, 5]"}, {"words", "[a, b]"}, {"least", "0.5"}, {"most", "none"}});
+  CHECK(set(", weights: '[7]', words: []")["weights"] == "[7]");  // as --set gives it
+  const std::string wrong = head + "  weigh: {in: n, out: t, ";
+  check_one(wrong + "weights: 3}\n",
+            "test.yaml:5:35: weigh.weights: ", "'3' is not allowed, expected list of ints");
+  check_one(wrong + "weights: [1, x]}\n",
+            "test.yaml:5:35: weigh.weights: ", "expected list of ints");
+  check_one(wrong + "weights: [1, -1]}\n", "test.yaml:5:35: weigh.weights: ", "must be >= 0");
+  check_one(wrong + "words: [a, c]}\n", "test.yaml:5:33: weigh.words: ", "must be one of a, b");
+  check_one(wrong + "words: ['a,b']}\n", "test.yaml:5:34: weigh.words: ", "holds no comma");
+  check_one(wrong + "least: [1]}\n", "test.yaml:5:33: weigh.least: ", "expected number or none");
+  check_one(wrong + "least: -1}\n", "test.yaml:5:33: weigh.least: ", "must be >= 0");
+  for (const char* text : {"1, 2", "[1, 2", "[1,,2]", "[1,]"})
+    CHECK_FALSE(graph::Scalar<std::vector<int>>::parse(text));
+}
+
+TEST_CASE("a broken rule between parameters is laid to the value that broke it", "[plan]") {
+  const auto blamed = [](const std::string& in_pipeline, const std::vector<graph::Override>& sets) {
+    const TemporaryFolder folder;
+    std::vector<graph::Problem> problems;
+    graph::PipelineDescription pipeline = graph::read_pipeline(
+        folder.write("p.yaml", "inputs: [n]\nresult: t\nnodes:\n  weigh: {in: n, out: t" +
+                                   in_pipeline + "}\n"),
+        problems);
+    graph::apply_overrides(pipeline, sets);
+    graph::make_pipeline<Text(Number)>(pipeline, "a test", {}, problems);
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].text == "`least` must not be above `most`");
+    problems[0].where.file = std::filesystem::path(problems[0].where.file).filename();
+    return to_string(problems[0].where);
+  };
+  std::vector<graph::Problem> none;
+  const auto least = graph::read_set("weigh.least=5", none);
+  const auto most = graph::read_set("weigh.most=1", none);
+  CHECK(blamed(", least: 5, most: 1", {}) == "p.yaml:4:42");
+  CHECK(blamed(", least: 1, most: 3", {least}) == "--set weigh.least=5");
+  CHECK(blamed("", {least, most}) == "--set weigh.most=1");
+  CHECK(blamed("", {most, least}) == "--set weigh.least=5");
+  CHECK(blamed(", least: 3, most: 2", {most}) == "--set weigh.most=1");
+}
+
+TEST_CASE("a node may have several outputs, by name or in order", "[plan]") {
+  const std::string tail = "  count_letters: {in: t, out: l}\n  add: {in: [s, l], out: r}\n";
+  for (const std::string out : {"[s, t]", "{large: t, small: s}"})
+    CHECK(problems_of(kHead + "  halve: {in: n, out: " + out + "}\n" + tail).empty());
+  CHECK(
+      problems_of(kHead + "  halve: {in: n, out: {small: r}}\n").empty());  // nobody wants `large`
+  check_one(kHead +
+                "  halve: {in: n, out: [r, t, u]}\n  count_letters: {in: t, out: l}\n"
+                "  add: {in: [u, l], out: v}\n  swallow: {in: v}\n",
+            "test.yaml:4:30: halve: ", "has 2 outputs, 'u' is one more");
+  check_one(kHead +
+                "  halve: {in: n, out: {small: r, larg: t}}\n  count_letters: {in: t, out: l}\n"
+                "  swallow: {in: l}\n",
+            "test.yaml:4:40: halve: ", "has no output 'larg', did you mean 'large'?");
+  check_one(kHead + "  halve: {in: n}\n  multiply: {in: n, out: r}\n",
+            "test.yaml:4:3: halve: ", "expected `out`: a name for its test::Number, test::Text");
+}
+
+TEST_CASE("a node with a state takes the objects of a frame all at once", "[plan]") {
+  check_one(kHead + "  split: {in: n, out: o}\n  add_up: {in: o, out: s}\n  sum: {in: s, out: r}\n",
+            "test.yaml:5:3: add_up: ", "would run for each object");
+}

@@ -50,13 +50,14 @@ graph::Plan make_plan(const test::TemporaryFolder& folder) {
                    "  thrice: {node: test_multiply, in: two, out: six, factor: 3}\n"
                    "  test_add: {in: [two, six], out: sum}\n"),
       problems);
-  graph::Plan plan = graph::make_plan(description, {}, problems);
+  graph::Plan plan = graph::make_plan(
+      description, graph::Pipeline<double(double)>::ends("a pipeline for tests"), problems);
   REQUIRE(problems.empty());
   return plan;
 }
 
 graph::Value value_of(double number) { return std::make_shared<const double>(number); }
-double number_in(const graph::Value& value) { return *static_cast<const double*>(value.get()); }
+double number_in(const graph::Value& value) { return graph::StreamTraits<double>::unwrap(value); }
 
 std::string changes_of(const graph::PlannedNode& node, const std::string& term) {
   std::string text;

@@ -211,8 +211,8 @@ TEST_CASE("odd names and messages", "[report]") {
 TEST_CASE("torn and strange lines of results are left out", "[report]") {
   const TemporaryFolder folder;
   write_run(folder.path());
-  const std::string layouts::whole = read_text(folder / "results.json");
-  folder.write("results.json", layouts::whole.substr(0, layouts::whole.find("three") + 2));
+  const std::string whole = read_text(folder / "results.json");
+  folder.write("results.json", whole.substr(0, whole.find("three") + 2));
   std::string page = whole_page(folder);
   CHECK_THAT(page,
              Contains("<dt>frames answered</dt><dd>2</dd>") && Contains("Torn lines left out: 1."));

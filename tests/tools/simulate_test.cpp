@@ -8,7 +8,7 @@
 #include "graph/problem.hpp"
 #include "nodes/formats/depth_image.hpp"
 #include "nodes/formats/read_cloud.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/nearest_index.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulate/spec.hpp"
@@ -60,7 +60,8 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
   for (const layouts::TrueInstance& instance : truth.instances) {
     const Cloud scan = formats::read_cloud(
         folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
-    const geometry::PointGrid grid(scan.points, 0.005F);
+    const geometry::NearestIndex surface(scan.points, 0.01F);
+    const std::vector<char> none_hidden(static_cast<std::size_t>(scan.points.rows()), 0);
     const layouts::TrueObject& object = truth.objects.at(instance.obj_id);
     std::vector<float> distances;
     for (Eigen::Index i = 0; i < object.points.rows(); i += 3) {

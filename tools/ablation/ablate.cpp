@@ -33,14 +33,15 @@ std::string rule_for(const std::string& config) {
 
 /// Whatever their slots refer to, the votes are for the models of this library.
 graph::Value votes_for(const ModelLibrary& library, const graph::Value& votes) {
-  graph::Slots slots;
-  for (const graph::Value& slot : *static_cast<const graph::Slots*>(votes.get())) {
-    VoteSet copy = *static_cast<const VoteSet*>(slot.get());
+  using Votes = graph::StreamTraits<PerObject<VoteSet>>;
+  PerObject<VoteSet> all;
+  for (const auto& slot : Votes::unwrap(votes).slots) {
+    VoteSet copy = *slot;
     for (const auto& model : library.models)
       if (model->obj_id == copy.model->obj_id) copy.model = model;
-    slots.push_back(std::make_shared<const VoteSet>(std::move(copy)));
+    all.slots.push_back(std::make_shared<const VoteSet>(std::move(copy)));
   }
-  return std::make_shared<const graph::Slots>(std::move(slots));
+  return Votes::wrap(std::move(all));
 }
 
 /// The trials that change the segmentation, after one that changes nothing.
@@ -55,7 +56,7 @@ std::vector<Trial> make_trials(const Configuration& configuration, const ModelFi
   std::fprintf(stderr, "training anew for %zu variations\n", training.size());
   const Replay replay(configuration.models, {}, {std::make_shared<const ModelFiles>(models)});
   for (Variation& variation : training) {
-    auto library = std::static_pointer_cast<const ModelLibrary>(replay.rerun(variation.node));
+    auto library = graph::StreamTraits<ModelLibrary>::share(replay.rerun(variation.node));
     variation.node = segmentation;
     trials.push_back({std::move(variation), std::move(library), {}, 0});
   }
@@ -68,11 +69,11 @@ void run(Trial& trial, const Replay& scan, const SceneFile& file) {
   const auto begin = std::chrono::steady_clock::now();
   const graph::Value result = scan.rerun(trial.variation.node, instead);
   trial.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const Detection& one : static_cast<const Detections*>(result.get())->items)
+  for (const Detection& one : graph::StreamTraits<Detections>::unwrap(result).items)
     trial.found.push_back({0, file.scene_id, file.im_id, one.obj_id, one.score, one.T_scene_model});
 }
 
-Outcome judge(const Trial& trial, const GroundTruth& truth, const std::string& rule) {
+Outcome judge(const Trial& trial, const layouts::GroundTruth& truth, const std::string& rule) {
   EvaluateOptions options;
   options.rules = rule;
   const Counts counts = evaluate(truth, trial.found, options).all[0].counts;
@@ -88,12 +89,11 @@ std::vector<Row> ablate(const TestSet& set, const std::vector<std::string>& term
   const Configuration configuration = load_configuration(set.config, {});
   const ModelFiles models = list_models(list_dataset_models(set.dataset.string(), split));
   const Library library = cached_library(configuration, models, cache);
-  const auto& result = configuration.models.streams[std::size_t(configuration.models.result)];
-  const auto constants = graph::fold_constants(configuration.scenes, {{result.name, library}});
+  const graph::Constants constants = constants_of(configuration, library);
   std::vector<Trial> trials = make_trials(configuration, models, terms);
   const auto scenes = take_shard(list_dataset_scenes(set.dataset.string(), split),
                                  "1/" + std::to_string(set.every));
-  std::set<ImageKey> seen;
+  std::set<layouts::ImageKey> seen;
   for (const SceneEntry& scene : scenes) {
     if (interrupted) break;
     std::fprintf(stderr, "%s: image %zu of %zu, %zu variations\n", set.name.c_str(),
@@ -103,8 +103,8 @@ std::vector<Row> ablate(const TestSet& set, const std::vector<std::string>& term
     for (Trial& trial : trials) run(trial, scan, scene.file);
     seen.insert({scene.file.scene_id, scene.file.im_id});
   }
-  GroundTruth truth = read_ground_truth(set.dataset, split);
-  std::erase_if(truth.instances, [&](const TrueInstance& instance) {
+  layouts::GroundTruth truth = layouts::read_ground_truth(set.dataset, split);
+  std::erase_if(truth.instances, [&](const layouts::TrueInstance& instance) {
     return !seen.contains({instance.scene_id, instance.im_id});
   });
   std::vector<Row> rows;

@@ -32,7 +32,9 @@ std::vector<bool> nodes_before(const graph::Plan& plan, int result) {
 void call(const graph::PlannedNode& node, std::vector<graph::Value>& values) {
   std::vector<graph::Value> inputs;
   for (const int input : node.inputs) inputs.push_back(values[std::size_t(input)]);
-  values[std::size_t(node.output)] = graph::call_node(node, inputs, {});
+  std::vector<graph::Value> made = graph::call_node(node, inputs, {});
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (node.outputs[i] >= 0) values[std::size_t(node.outputs[i])] = std::move(made[i]);
 }
 
 }  // namespace
@@ -43,10 +45,10 @@ const graph::PlannedNode& find_planned(const graph::Plan& plan, const std::strin
   throw std::invalid_argument(plan.name + ": has no node '" + name + "'");
 }
 
-Replay::Replay(const graph::Plan& plan, const std::map<std::string, graph::Value>& constants,
+Replay::Replay(const graph::Plan& plan, const graph::Constants& constants,
                const std::vector<graph::Value>& inputs)
     : plan_(plan), needed_(nodes_before(plan, plan.result)), values_(plan.streams.size()) {
-  for (const auto& [name, value] : constants) values_[number_of(plan, name)] = value;
+  for (const auto& [name, value] : constants) values_[number_of(plan, name)] = value.value;
   for (std::size_t i = 0; i < inputs.size(); ++i)
     values_[std::size_t(plan.inputs.at(i))] = inputs[i];
   for (std::size_t i = 0; i < plan.nodes.size(); ++i)
@@ -69,7 +71,8 @@ graph::Value Replay::rerun(const graph::PlannedNode& changed,
                                      [&](int input) { return differs[std::size_t(input)]; });
     if (!needed_[i] || !(is_changed || depends)) continue;
     call(node, values);
-    differs[std::size_t(node.output)] = true;
+    for (const int output : node.outputs)
+      if (output >= 0) differs[std::size_t(output)] = true;
   }
   return values[std::size_t(plan_.result)];
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/plan.hpp"
+#include "graph/flow.hpp"
 
 namespace posevote::ablation {
 
@@ -15,7 +15,7 @@ class Replay {
  public:
   /// Runs all nodes that the plan's result depends on. `constants`: from fold_constants; `inputs`:
   /// in the plan's order. Keeps a reference to the plan. Throws what a node throws.
-  Replay(const graph::Plan& plan, const std::map<std::string, graph::Value>& constants,
+  Replay(const graph::Plan& plan, const graph::Constants& constants,
          const std::vector<graph::Value>& inputs);
 
   /// The result if the node of that name were this one. It and those behind it read these values

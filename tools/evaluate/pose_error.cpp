@@ -76,7 +76,6 @@ std::vector<Eigen::Isometry3d> symmetry_steps(const layouts::TrueObject& object)
 PoseMeter::PoseMeter(const layouts::TrueObject& object)
     : object_(&object),
       sample_(sample_of(object.points, kMostPoints)),
-      few_(sample_of(object.points, kFewPoints)),
       extreme_(geometry::extreme_points(object.points)),
       all_(object.points.transpose().cast<double>()),
       steps_(symmetry_steps(object)),

@@ -11,9 +11,9 @@ void add_options(CLI::App& app, ExperimentCommand& command) {
       "Example:\n  posevote experiment sensitivity --dataset bunny.ply\n\n"
       "Runs our method and its rivals on one data set and prints the paper's table with ours "
       "beside\nit; CSV and plots go to --out. A run that was stopped goes on where it was.");
-  app.add_option("name", command.name, "sensitivity, uwa, queens, icbin or icmi")
+  app.add_option("name", command.name, "sensitivity, uwa, queens, icbin, icmi or ablation")
       ->required()
-      ->check(CLI::IsMember({"sensitivity", "uwa", "queens", "icbin", "icmi"}));
+      ->check(CLI::IsMember({"sensitivity", "uwa", "queens", "icbin", "icmi", "ablation"}));
   app.add_option("--dataset", command.dataset,
                  "The real data (sensitivity: a mesh in m); default: a replica is made")
       ->type_name("PATH");
@@ -23,6 +23,9 @@ void add_options(CLI::App& app, ExperimentCommand& command) {
   app.add_option("--every", command.every, "Take one image of so many; of sets of images only")
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
+  app.add_option("--sets", command.sets, "Ablation: replicas, CONFIG=DIR for real sets")
+      ->type_name("SET");
+  app.add_option("--terms", command.terms, "Ablation: only these parameters")->type_name("PARAM");
   app.add_flag("--quick", command.quick, "A small part of it, to see that it works");
 }
 

@@ -163,7 +163,7 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
 
 TEST_CASE("terms are parameters for experts", "[segment]") {
   const auto score = [](const Values& terms) {
-    const auto found = segment({beside(kLeft, 0, 20)}, terms);
+    const auto found = segmented({beside(kLeft, 0, 20)}, terms);
     return found.empty() ? 0 : found[0].score;
   };
   const double usual = score({});
