@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <typeindex>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 namespace posevote::graph {
@@ -49,6 +51,19 @@ struct StreamTraits {
   static StreamType type() { return {typeid(T), false, type_name(typeid(T))}; }
   static const T& unwrap(const Value& value) { return *static_cast<const T*>(value.get()); }
   static Value wrap(T&& value) { return std::make_shared<const T>(std::move(value)); }
+};
+
+/// A node that hands a large T on as it came takes and returns the pointer: nothing is copied.
+template <class T>
+struct StreamTraits<std::shared_ptr<const T>> {
+  static StreamType type() { return StreamTraits<T>::type(); }
+  static std::shared_ptr<const T> unwrap(const Value& value) {
+    return std::static_pointer_cast<const T>(value);
+  }
+  static Value wrap(std::shared_ptr<const T>&& value) {
+    if (!value) throw std::logic_error("it returned no " + type().name);
+    return std::move(value);
+  }
 };
 
 template <class T>

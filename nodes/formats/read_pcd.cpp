@@ -4,8 +4,7 @@
 // every thread of the process) not to print, and after the header is checked little is left to
 // read.
 //
-// VIEWPOINT's translation becomes the cloud's viewpoint; its rotation says nothing about the
-// points.
+// VIEWPOINT's translation becomes the view's origin; its rotation says nothing about the points.
 #include <pcl/io/lzf.h>
 
 #include <stdexcept>

@@ -33,7 +33,7 @@ float median_range(const std::vector<Eigen::Vector3f>& image_points) {
 }  // namespace
 
 RangeView::RangeView(const Cloud& scan, float resolution)
-    : viewpoint_(scan.viewpoint), image_(scan.image) {
+    : viewpoint_(scan.view.origin), image_(scan.view.image) {
   if (!(resolution > 0) || !find_axis(scan, resolution)) return;
   std::vector<Eigen::Vector3f> image_points;
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {

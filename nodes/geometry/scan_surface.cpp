@@ -18,7 +18,7 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach)
     : points_(scan.points),
       normals_(scan.normals),
       gone_(static_cast<std::size_t>(scan.points.rows()), 0),
-      viewpoint_(scan.viewpoint),
+      viewpoint_(scan.view.origin),
       single_view_(single_view),
       index_(points_, reach) {
   for (std::size_t i = 0; i < gone_.size(); ++i) {
