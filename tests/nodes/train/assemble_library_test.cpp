@@ -54,12 +54,11 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
                              PerObject<Mesh>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
                              PerObject<NearSymmetries>{}, PerObject<Outline>{}, Scale{1}),
       Catch::Contains("1 model files, but 0 meshes"));
-  PerObject<Mesh> empty;
-  empty.slots = {std::make_shared<const Mesh>()};
   PerObject<FeatureSet> features;
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   CHECK_THROWS_WITH(
-      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}}, empty, empty,
-                             features, one_empty<NearSymmetries>(), one_empty<Outline>(), Scale{1}),
+      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
+                             one_empty<Mesh>(), one_empty<Cloud>(), features,
+                             one_empty<NearSymmetries>(), one_empty<Outline>(), Scale{1}),
       Catch::Contains("a.ply: has no points"));
 }
