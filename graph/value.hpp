@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <typeindex>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 namespace posevote::graph {
@@ -52,6 +54,19 @@ struct StreamTraits {
     return std::static_pointer_cast<const T>(value);
   }
   static Value wrap(T&& value) { return std::make_shared<const T>(std::move(value)); }
+};
+
+/// A node that hands a large T on as it came takes and returns the pointer: nothing is copied.
+template <class T>
+struct StreamTraits<std::shared_ptr<const T>> {
+  static StreamType type() { return StreamTraits<T>::type(); }
+  static std::shared_ptr<const T> unwrap(const Value& value) {
+    return std::static_pointer_cast<const T>(value);
+  }
+  static Value wrap(std::shared_ptr<const T>&& value) {
+    if (!value) throw std::logic_error("it returned no " + type().name);
+    return std::move(value);
+  }
 };
 
 template <class T>

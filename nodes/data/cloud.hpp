@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point cloud or triangle mesh: the noun that loading and preparation pass along.
+// Surfaces made of points: models and scans as they are loaded, and the oriented points that the
+// method makes of them.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstddef>
 #include <cstdint>
 
 namespace posevote {
@@ -19,19 +19,35 @@ using PointMatrix = Eigen::Matrix<float, Eigen::Dynamic, 3>;
 /// m x 3 vertex indices, one triangle a row.
 using FaceMatrix = Eigen::Matrix<std::uint32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Points with optional normals and faces. Lengths in metres. A scan lives in the sensor's frame, a
-/// model in its own frame.
-struct Cloud {
-  PointMatrix points;   ///< n x 3 [m]
-  PointMatrix normals;  ///< n x 3 unit vectors, or 0 x 3 where there are none. Scenes: toward the
-                        ///< sensor; models: outward. An unusable normal is (0, 0, 0).
-  FaceMatrix faces;     ///< m x 3 indices into points, or 0 x 3 for a raw cloud
-  Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< sensor origin [m] (scans only)
+/// Where a sensor stood, and what its image spans.
+struct View {
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< of the sensor, in the scan's frame [m]
   Eigen::AlignedBox2f image;  ///< of a depth image: what its pixels span in x / z and y / z, seen
-                              ///< from the viewpoint; empty where that is not known
+                              ///< from the origin; empty where that is not known
   Eigen::Vector2i pixels =
       Eigen::Vector2i::Zero();  ///< of that image, columns and rows; 0: unknown
-  std::size_t dropped = 0;      ///< points left out so far: not finite, or without a usable normal
+};
+
+/// Oriented points, which the method works on from the normals to the poses: of a scan, in its
+/// sensor's frame, or of a model, in the model's own frame.
+struct Cloud {
+  PointMatrix points;   ///< n x 3 [m]
+  PointMatrix normals;  ///< n x 3 unit vectors. Scans: toward the sensor; models: outward. An
+                        ///< unusable normal is (0, 0, 0).
+  View view;            ///< of a scan; of a model it says nothing
+};
+
+/// A model's surface as it was loaded, in its own frame.
+struct Mesh {
+  PointMatrix points;   ///< n x 3 [m]
+  PointMatrix normals;  ///< n x 3, as the file has them, or 0 x 3 where it has none
+  FaceMatrix faces;     ///< m x 3 indices into points, or 0 x 3 for a raw cloud
+};
+
+/// What a sensor measured, as it was loaded, in the sensor's or the file's frame. It is a Mesh, so
+/// that what works on surfaces takes both.
+struct Scan : Mesh {
+  View view;
 };
 
 }  // namespace posevote

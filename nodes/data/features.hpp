@@ -10,8 +10,9 @@
 
 namespace posevote {
 
-/// The length unit of a whole run: models and scans must be sampled alike for descriptors to agree.
-/// Radii and distances of the nodes are multiples of `resolution`, as in the authors' own code.
+/// The one length that all others follow: how far apart the points of a run are. Descriptors agree
+/// only where models and scans are sampled alike, so radii and distances of the nodes are multiples
+/// of it ("x resolution"), as in the authors' own code.
 struct Scale {
   float resolution = 0;  ///< edge of the voxel grid [m]
 };

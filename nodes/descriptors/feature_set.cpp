@@ -4,8 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::descriptors {
 namespace {
@@ -39,26 +41,18 @@ bool is_oriented(const Cloud& cloud, std::uint32_t point) {
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
                           const DescriptorMatrix& descriptors, const std::vector<char>& described) {
   std::vector<Eigen::Index> kept;
+  std::vector<std::uint32_t> kept_points;
   for (std::size_t i = 0; i < described.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    if (described[i] && descriptors.row(row).allFinite()) kept.push_back(row);
+    if (!described[i] || !descriptors.row(row).allFinite()) continue;
+    kept.push_back(row);
+    kept_points.push_back(points.indices[i]);
   }
   if (kept.empty())
     throw std::runtime_error("none of " + std::to_string(points.indices.size()) +
                              " feature points has enough neighbours and a normal to be described");
-  const auto count = static_cast<Eigen::Index>(kept.size());
-  FeatureSet features;
-  features.points.resize(count, 3);
-  features.normals.resize(count, 3);
-  features.descriptors.resize(count, descriptors.cols());
-  for (Eigen::Index row = 0; row < count; ++row) {
-    const Eigen::Index from = kept[static_cast<std::size_t>(row)];
-    const std::uint32_t point = points.indices[static_cast<std::size_t>(from)];
-    features.points.row(row) = cloud.points.row(point);
-    features.normals.row(row) = cloud.normals.row(point);
-    features.descriptors.row(row) = descriptors.row(from);
-  }
-  return features;
+  Cloud at = geometry::select_rows(cloud, kept_points);
+  return {std::move(at.points), std::move(at.normals), descriptors(kept, Eigen::all), {}};
 }
 
 Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius)

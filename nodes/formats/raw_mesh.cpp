@@ -31,7 +31,7 @@ Eigen::RowVector3f direction(const Triple& v) {
   return (normal / length).cast<float>();
 }
 
-/// New index of every point, kGone where it is not finite; compacts cloud.points.
+/// New index of every point, kGone where it is not finite; compacts the points.
 std::vector<std::uint32_t> keep_finite(PointMatrix& points) {
   std::vector<std::uint32_t> new_index(static_cast<std::size_t>(points.rows()), kGone);
   Eigen::Index kept = 0;
@@ -64,24 +64,23 @@ void RawMesh::add_polygon(std::span<const std::uint32_t> corners) {
     faces.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
-Cloud to_cloud(const RawMesh& mesh, double metres_per_unit) {
+Scan to_scan(const RawMesh& mesh, double metres_per_unit) {
   const std::size_t count = mesh.points.size();
   if (count == 0) throw std::runtime_error("there are no points in the file");
-  Cloud cloud;
-  cloud.points.resize(static_cast<Eigen::Index>(count), 3);
+  Scan scan;
+  scan.points.resize(static_cast<Eigen::Index>(count), 3);
   for (std::size_t i = 0; i < count; ++i)
-    cloud.points.row(static_cast<Eigen::Index>(i)) = scaled(mesh.points[i], metres_per_unit);
-  const std::vector<std::uint32_t> new_index = keep_finite(cloud.points);
-  cloud.dropped = count - static_cast<std::size_t>(cloud.points.rows());
-  if (cloud.dropped == count)
+    scan.points.row(static_cast<Eigen::Index>(i)) = scaled(mesh.points[i], metres_per_unit);
+  const std::vector<std::uint32_t> new_index = keep_finite(scan.points);
+  if (scan.points.rows() == 0)
     throw std::runtime_error("all " + std::to_string(count) + " points are NaN or infinite");
-  if (!mesh.normals.empty()) cloud.normals.resize(cloud.points.rows(), 3);
+  if (!mesh.normals.empty()) scan.normals.resize(scan.points.rows(), 3);
   for (std::size_t i = 0; i < mesh.normals.size(); ++i)
-    if (new_index[i] != kGone) cloud.normals.row(new_index[i]) = direction(mesh.normals[i]);
-  cloud.faces = keep_faces(mesh, new_index);
-  cloud.viewpoint = scaled(mesh.viewpoint, metres_per_unit).transpose();
-  if (!cloud.viewpoint.allFinite()) throw std::runtime_error("the viewpoint is NaN or infinite");
-  return cloud;
+    if (new_index[i] != kGone) scan.normals.row(new_index[i]) = direction(mesh.normals[i]);
+  scan.faces = keep_faces(mesh, new_index);
+  scan.view.origin = scaled(mesh.viewpoint, metres_per_unit).transpose();
+  if (!scan.view.origin.allFinite()) throw std::runtime_error("the viewpoint is NaN or infinite");
+  return scan;
 }
 
 void check_room(std::uint64_t count, const std::string& what, std::uint64_t size,

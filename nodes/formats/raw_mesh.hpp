@@ -32,10 +32,10 @@ struct RawMesh {
   void add_polygon(std::span<const std::uint32_t> corners);
 };
 
-/// Scales to metres; removes points that are not finite, and the faces that use them, and counts
-/// the points in Cloud::dropped; makes normals unit length, or zero where they have no direction.
-/// Throws std::runtime_error if no point is left. Every face must refer to points of the mesh.
-Cloud to_cloud(const RawMesh& mesh, double metres_per_unit);
+/// Scales to metres; leaves out points that are not finite, and the faces that use them; makes
+/// normals unit length, or zero where they have no direction. Throws std::runtime_error if no point
+/// is left. Every face must refer to points of the mesh.
+Scan to_scan(const RawMesh& mesh, double metres_per_unit);
 
 /// Throws std::runtime_error if `count` things of at least `size` bytes cannot be in `room` bytes:
 /// asked before anything is allocated. `what` is a plural.

@@ -4,8 +4,7 @@
 // for, needs its global console silenced (for every thread of the process) not to print, and takes
 // 127 ms where this takes 17 (ascii).
 //
-// VIEWPOINT's translation becomes the cloud's viewpoint; its rotation says nothing about the
-// points.
+// VIEWPOINT's translation becomes the view's origin; its rotation says nothing about the points.
 #include <pcl/io/lzf.h>
 
 #include <stdexcept>

@@ -20,55 +20,54 @@ void put(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-void check_counts(const fs::path& file, const Cloud& cloud, std::size_t colours) {
-  const Eigen::Index points = cloud.points.rows();
+void check_counts(const fs::path& file, const Mesh& mesh, std::size_t colours) {
+  const Eigen::Index points = mesh.points.rows();
   const auto refuse = [&](const std::string& what, Eigen::Index count) {
     throw std::invalid_argument(file.string() + ": " + std::to_string(count) + " " + what +
                                 " for " + std::to_string(points) + " points");
   };
-  if (cloud.normals.rows() != 0 && cloud.normals.rows() != points)
-    refuse("normals", cloud.normals.rows());
+  if (mesh.normals.rows() != 0 && mesh.normals.rows() != points)
+    refuse("normals", mesh.normals.rows());
   if (colours != 0 && static_cast<Eigen::Index>(colours) != points)
     refuse("colours", static_cast<Eigen::Index>(colours));
-  if (cloud.faces.size() != 0 && static_cast<Eigen::Index>(cloud.faces.maxCoeff()) >= points)
-    refuse("as the highest index of a face", cloud.faces.maxCoeff());
+  if (mesh.faces.size() != 0 && static_cast<Eigen::Index>(mesh.faces.maxCoeff()) >= points)
+    refuse("as the highest index of a face", mesh.faces.maxCoeff());
 }
 
-std::string header(const Cloud& cloud, bool colours) {
+std::string header(const Mesh& mesh, bool colours) {
   std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                     std::to_string(cloud.points.rows()) +
+                     std::to_string(mesh.points.rows()) +
                      "\nproperty float x\nproperty float y\nproperty float z\n";
-  if (cloud.normals.rows() != 0)
-    text += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (mesh.normals.rows() != 0) text += "property float nx\nproperty float ny\nproperty float nz\n";
   if (colours) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  if (cloud.faces.rows() != 0)
-    text += "element face " + std::to_string(cloud.faces.rows()) +
+  if (mesh.faces.rows() != 0)
+    text += "element face " + std::to_string(mesh.faces.rows()) +
             "\nproperty list uchar uint vertex_indices\n";
   return text + "end_header\n";
 }
 
-std::string body(const Cloud& cloud, double units_per_metre, const std::vector<Rgb>& colours) {
+std::string body(const Mesh& mesh, double units_per_metre, const std::vector<Rgb>& colours) {
   std::string bytes;
-  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+  for (Eigen::Index i = 0; i < mesh.points.rows(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      put(bytes, static_cast<float>(cloud.points(i, axis) * units_per_metre));
-    if (cloud.normals.rows() != 0)
-      for (int axis = 0; axis < 3; ++axis) put(bytes, cloud.normals(i, axis));
+      put(bytes, static_cast<float>(mesh.points(i, axis) * units_per_metre));
+    if (mesh.normals.rows() != 0)
+      for (int axis = 0; axis < 3; ++axis) put(bytes, mesh.normals(i, axis));
     if (!colours.empty()) put(bytes, colours[static_cast<std::size_t>(i)]);
   }
-  for (Eigen::Index face = 0; face < cloud.faces.rows(); ++face) {
+  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
     put(bytes, std::uint8_t{3});
-    for (int corner = 0; corner < 3; ++corner) put(bytes, cloud.faces(face, corner));
+    for (int corner = 0; corner < 3; ++corner) put(bytes, mesh.faces(face, corner));
   }
   return bytes;
 }
 
 }  // namespace
 
-void write_ply(const fs::path& file, const Cloud& cloud, double units_per_metre,
+void write_ply(const fs::path& file, const Mesh& mesh, double units_per_metre,
                const std::vector<Rgb>& colours) {
-  check_counts(file, cloud, colours.size());
-  const std::string bytes = header(cloud, !colours.empty()) + body(cloud, units_per_metre, colours);
+  check_counts(file, mesh, colours.size());
+  const std::string bytes = header(mesh, !colours.empty()) + body(mesh, units_per_metre, colours);
   fs::path part = file;
   part += ".part";
   errno = 0;

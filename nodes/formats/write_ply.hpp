@@ -16,7 +16,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 /// and colours that there are (colours: none, or one a point). The file appears whole or not at
 /// all. Throws std::runtime_error naming it if it cannot be written, and std::invalid_argument
 /// where the counts contradict each other.
-void write_ply(const std::filesystem::path& file, const Cloud& cloud, double units_per_metre = 1,
+void write_ply(const std::filesystem::path& file, const Mesh& mesh, double units_per_metre = 1,
                const std::vector<Rgb>& colours = {});
 
 }  // namespace posevote::formats

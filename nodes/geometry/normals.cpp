@@ -5,7 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::geometry {
 
@@ -37,19 +40,9 @@ void normalise(PointMatrix& normals) {
   }
 }
 
-void turn_toward(const Eigen::Vector3f& viewpoint, const PointMatrix& points,
-                 PointMatrix& normals) {
+void turn_toward(const Eigen::Vector3f& sensor, const PointMatrix& points, PointMatrix& normals) {
   for (Eigen::Index i = 0; i < normals.rows(); ++i)
-    if (normals.row(i).dot(viewpoint.transpose() - points.row(i)) < 0) normals.row(i) *= -1.0F;
-}
-
-Cloud without_points(const Cloud& cloud) {
-  Cloud out;
-  out.viewpoint = cloud.viewpoint;
-  out.image = cloud.image;
-  out.pixels = cloud.pixels;
-  out.dropped = cloud.dropped;
-  return out;
+    if (normals.row(i).dot(sensor.transpose() - points.row(i)) < 0) normals.row(i) *= -1.0F;
 }
 
 std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals) {
@@ -63,14 +56,11 @@ std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointM
   return rows;
 }
 
-Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals) {
-  const std::vector<std::uint32_t> kept = oriented_rows(cloud.points, normals);
-  Cloud out = without_points(cloud);
-  const bool all = std::ssize(kept) == normals.rows();
-  out.points = all ? cloud.points : PointMatrix(cloud.points(kept, Eigen::all));
-  out.normals = all ? normals : PointMatrix(normals(kept, Eigen::all));
-  out.dropped += static_cast<std::size_t>(cloud.points.rows()) - kept.size();
-  return out;
+Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view) {
+  Cloud cloud{points, std::move(normals), view};
+  const std::vector<std::uint32_t> kept = oriented_rows(cloud.points, cloud.normals);
+  if (std::ssize(kept) != points.rows()) return select_rows(cloud, kept);
+  return cloud;
 }
 
 void require_normals(const Cloud& cloud) {

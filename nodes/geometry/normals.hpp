@@ -16,19 +16,15 @@ PointMatrix face_normals(const PointMatrix& points, const FaceMatrix& faces);
 /// Makes every normal a unit vector, or (0, 0, 0) where it is not finite or shorter than 1e-12.
 void normalise(PointMatrix& normals);
 
-/// Turns each normal toward the viewpoint.
-void turn_toward(const Eigen::Vector3f& viewpoint, const PointMatrix& points, PointMatrix& normals);
-
-/// What a cloud tells beside its points, their normals and faces.
-Cloud without_points(const Cloud& cloud);
+/// Turns each normal toward the sensor.
+void turn_toward(const Eigen::Vector3f& sensor, const PointMatrix& points, PointMatrix& normals);
 
 /// The numbers of the finite points with a finite normal other than (0, 0, 0). Throws
 /// std::runtime_error if there are none.
 std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals);
 
-/// Those points, with these normals; the others are added to `dropped`. Faces are left behind:
-/// nothing that follows needs them. Throws as oriented_rows.
-Cloud keep_oriented(const Cloud& cloud, const PointMatrix& normals);
+/// Those of the points that oriented_rows finds. Throws as it does.
+Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view = {});
 
 /// Throws std::runtime_error if the points have no normals.
 void require_normals(const Cloud& cloud);

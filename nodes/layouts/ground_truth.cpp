@@ -6,10 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "nodes/formats/read_cloud.hpp"
-#include "nodes/geometry/extreme_points.hpp"
-#include "nodes/layouts/files.hpp"
-#include "nodes/layouts/layout.hpp"
+#include "nodes/formats/read_scan.hpp"
+#include "tools/evaluate/dataset.hpp"
 
 namespace posevote::layouts {
 namespace {
@@ -54,9 +52,9 @@ void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
       fail(dataset / "models" / name, "is missing, but has true poses");
     }
     try {
-      const Cloud cloud = formats::read_cloud(file->second, 0.001);
-      object.points = cloud.points;
-      object.faces = cloud.faces;
+      const Mesh mesh = formats::read_mesh(file->second, 0.001);
+      object.points = mesh.points;
+      object.faces = mesh.faces;
     } catch (const std::exception& error) {
       fail(file->second, error.what());
     }

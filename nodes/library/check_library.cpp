@@ -35,12 +35,9 @@ void require_unit(const PointMatrix& normals, bool or_zero, const std::string& w
 
 void check_cloud(const Cloud& cloud) {
   require(cloud.points.rows() > 0, "a cloud has no points");
-  require(cloud.points.allFinite() && cloud.viewpoint.allFinite(),
-          "a cloud has points that are not finite");
-  if (cloud.normals.rows() > 0) require_count(cloud.normals.rows(), cloud.points.rows(), "normals");
+  require(cloud.points.allFinite(), "a cloud has points that are not finite");
+  require_count(cloud.normals.rows(), cloud.points.rows(), "normals");
   require_unit(cloud.normals, true, "normal");
-  require(cloud.faces.rows() == 0 || cloud.faces.maxCoeff() < cloud.points.rows(),
-          "a face names a point that is not there");
 }
 
 void check_features(const FeatureSet& features) {

@@ -12,9 +12,6 @@ namespace {
 void put_cloud(ByteWriter& out, const Cloud& cloud) {
   out.put_matrix(cloud.points);
   out.put_matrix(cloud.normals);
-  out.put_matrix(cloud.faces);
-  out.put_matrix(cloud.viewpoint);
-  out.put(std::uint64_t{cloud.dropped});
 }
 
 void put_numbers(ByteWriter& out, const std::vector<std::uint32_t>& numbers) {
@@ -67,9 +64,6 @@ Cloud get_cloud(ByteReader& in) {
   Cloud cloud;
   cloud.points = in.get_matrix<PointMatrix>();
   cloud.normals = in.get_matrix<PointMatrix>();
-  cloud.faces = in.get_matrix<FaceMatrix>();
-  cloud.viewpoint = get_vector(in);
-  cloud.dropped = in.get<std::uint64_t>();
   return cloud;
 }
 

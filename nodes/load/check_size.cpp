@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,15 +56,17 @@ std::string metres(double value) {
   return text;
 }
 
-Cloud check_size(const Cloud& scan, const ModelLibrary& library, const Params& params) {
-  if (scan.points.rows() == 0) throw std::runtime_error("the scan has no points");
+using ScanPointer = std::shared_ptr<const Scan>;
+
+ScanPointer check_size(const ScanPointer& scan, const ModelLibrary& library, const Params& params) {
+  if (scan->points.rows() == 0) throw std::runtime_error("the scan has no points");
   if (library.models.empty()) throw std::runtime_error("the model library is empty");
   const auto smaller = [](const auto& a, const auto& b) { return a->diagonal < b->diagonal; };
   const auto [least, most] =
       std::minmax_element(library.models.begin(), library.models.end(), smaller);
   const auto smallest = static_cast<double>((*least)->diagonal);
   const auto largest = static_cast<double>((*most)->diagonal);
-  const double size = robust_diagonal(scan.points, params.outliers);
+  const double size = robust_diagonal(scan->points, params.outliers);
   if (size >= params.smallest * smallest && size <= params.largest * largest) return scan;
   const std::string wrong = size > largest ? "mm read as m, or models' m read as mm"
                                            : "m read as mm, or models' mm read as m";

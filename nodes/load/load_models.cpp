@@ -14,7 +14,7 @@
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "nodes/geometry/extent.hpp"
 
 namespace posevote::load {
@@ -24,21 +24,21 @@ struct Params {
   std::string unit = "m";
 };
 
-Cloud load_model(const std::filesystem::path& file, double metres) {
-  Cloud model = formats::read_cloud(file, metres);
+Mesh load_model(const std::filesystem::path& file, double metres) {
+  Mesh model = formats::read_mesh(file, metres);
   geometry::model_diagonal(model.points);  // here a model without one can be named
   return model;
 }
 
-PerObject<Cloud> load_models(const ModelFiles& files, const Params& params) {
+PerObject<Mesh> load_models(const ModelFiles& files, const Params& params) {
   if (files.empty()) throw std::runtime_error("there are no models to load");
-  PerObject<Cloud> models;
+  PerObject<Mesh> models;
   models.slots.resize(files.size());
   std::vector<std::string> problems(files.size());
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
-      models.slots[i] = std::make_shared<const Cloud>(
-          load_model(files[i].path, formats::metres_per(params.unit)));
+      models.slots[i] =
+          std::make_shared<const Mesh>(load_model(files[i].path, formats::metres_per(params.unit)));
     } catch (const std::exception& error) {
       problems[i] = files[i].path.string() + ": " + error.what();
     }

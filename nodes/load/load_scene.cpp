@@ -4,9 +4,8 @@
 // nodes/formats/read_*.cpp.
 //
 // A depth image takes its camera from the data set; where that has none, from the parameters.
-// Points that are NaN or infinite are left out and counted. Linear in the size of the file. Fails,
-// saying where, on files that are missing, damaged, cut off, or whose header claims more than they
-// hold.
+// Points that are NaN or infinite are left out. Linear in the size of the file. Fails, saying
+// where, on files that are missing, damaged, cut off, or whose header claims more than they hold.
 //
 //   load_scene: {in: scene_file, out: raw_scan, unit: mm}
 #include <string>
@@ -14,7 +13,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
 #include "nodes/formats/format.hpp"
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "nodes/load/read_depth.hpp"
 
 namespace posevote::load {
@@ -34,9 +33,9 @@ std::string check(const Params& params) {
   return "";
 }
 
-Cloud load_scene(const SceneFile& file, const Params& params) {
+Scan load_scene(const SceneFile& file, const Params& params) {
   if (!formats::has_ending(file.path, formats::Wanted::kDepthImages))
-    return formats::read_cloud(file.path, formats::metres_per(params.unit));
+    return formats::read_scan(file.path, formats::metres_per(params.unit));
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
   return read_depth(file.path, file.camera.value_or(given), {params.min_depth, params.max_depth});
 }

@@ -50,28 +50,28 @@ Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const formats::DepthImage
 
 }  // namespace
 
-Cloud read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
+Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
   check_camera(camera);
   const formats::DepthImage image = formats::read_depth_image(path);
   const std::vector<float> depths = depth_table(camera, range);
-  Cloud cloud;
-  cloud.points.resize(static_cast<Eigen::Index>(image.values.size()), 3);
+  Scan scan;
+  scan.points.resize(static_cast<Eigen::Index>(image.values.size()), 3);
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < image.values.size(); ++i) {
     const float z = depths[image.values[i]];
     if (z <= 0) continue;
     const std::size_t row = i / image.width, column = i % image.width;
     const auto u = static_cast<double>(column), v = static_cast<double>(row);
-    cloud.points.row(count++) << static_cast<float>((u - camera.cx) * z / camera.fx),
+    scan.points.row(count++) << static_cast<float>((u - camera.cx) * z / camera.fx),
         static_cast<float>((v - camera.cy) * z / camera.fy), z;
   }
-  cloud.image = pixel_bounds(camera, image);
-  cloud.pixels = {static_cast<int>(image.width), static_cast<int>(image.height)};
+  scan.view.image = pixel_bounds(camera, image);
+  scan.view.pixels = {static_cast<int>(image.width), static_cast<int>(image.height)};
   if (count == 0)
     throw std::runtime_error("none of the image's " + std::to_string(image.values.size()) +
                              " pixels holds a depth within the limits (0 is no measurement)");
-  cloud.points.conservativeResize(count, 3);
-  return cloud;
+  scan.points.conservativeResize(count, 3);
+  return scan;
 }
 
 }  // namespace posevote::load

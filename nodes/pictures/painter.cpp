@@ -42,7 +42,7 @@ struct Seen {
   std::vector<float> x, y;
 };
 
-Seen project(const View& view, const PointMatrix& points) {
+Seen project(const Perspective& view, const PointMatrix& points) {
   Seen out;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Eigen::Vector3f seen = view.in_view(points.row(i));
@@ -72,7 +72,7 @@ float shade(const Eigen::Vector3f& normal) {
   return 0.35F + 0.65F * std::max(0.0F, normal.dot(light));
 }
 
-Disc disc_of(const View& view, const Eigen::Vector3f& seen, const Eigen::Vector3f& normal,
+Disc disc_of(const Perspective& view, const Eigen::Vector3f& seen, const Eigen::Vector3f& normal,
              float radius) {
   const Eigen::Vector2f at = view.in_picture(seen);
   Disc disc{at.x(), at.y(), seen.z(), 0, Eigen::Vector2f::Zero(), seen.z() / view.scale};
@@ -83,10 +83,10 @@ Disc disc_of(const View& view, const Eigen::Vector3f& seen, const Eigen::Vector3
 
 }  // namespace
 
-View view_of(const Cloud& scan, const PointMatrix& also, int width) {
-  View view;
+Perspective perspective_of(const Cloud& scan, const PointMatrix& also, int width) {
+  Perspective view;
   view.width = view.height = width;
-  view.eye = scan.viewpoint;
+  view.eye = scan.view.origin;
   view.scale = static_cast<float>(width);
   if (scan.points.rows() == 0) return view;
   const Eigen::Vector3f mean = scan.points.colwise().mean();
@@ -124,7 +124,7 @@ float spacing_of(const PointMatrix& points, float resolution) {
 }
 
 Painter::Painter(const Cloud& scan, const PointMatrix& also, int width, float resolution)
-    : view_(view_of(scan, also, kFiner * width)),
+    : view_(perspective_of(scan, also, kFiner * width)),
       canvas_(view_.width, view_.height, {0.98F, 0.98F, 0.98F}),
       resolution_(resolution) {}
 

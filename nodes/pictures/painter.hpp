@@ -12,8 +12,8 @@
 
 namespace posevote::pictures {
 
-/// A pinhole view: eye, axes, and the rectangle of the image plane that is shown.
-struct View {
+/// A pinhole camera: eye, axes, and the rectangle of the image plane that is shown.
+struct Perspective {
   Eigen::Vector3f eye = Eigen::Vector3f::Zero();
   Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();  ///< rows: right, down, forward
   float scale = 1;                                     ///< pixels per unit of x / z
@@ -30,7 +30,7 @@ struct View {
 
 /// From the scan's sensor toward the middle of the scan: all of it but outliers in the picture, and
 /// all of `also` (points in the scan's frame).
-View view_of(const Cloud& scan, const PointMatrix& also, int width);
+Perspective perspective_of(const Cloud& scan, const PointMatrix& also, int width);
 
 /// Distance between neighbouring points: of a sample of the points, the upper quartile of the
 /// distance to the fourth neighbour [m]. `resolution`: about what to expect.
@@ -59,7 +59,7 @@ class Painter {
     Colour colour;
   };
 
-  View view_;
+  Perspective view_;
   Canvas canvas_;
   float resolution_;
   std::vector<Label> labels_;

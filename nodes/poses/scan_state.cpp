@@ -33,7 +33,7 @@ void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_mo
 }
 
 double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
-  return (posed_center(T_scene_model, model.center) - cloud.viewpoint.cast<double>()).norm();
+  return (posed_center(T_scene_model, model.center) - cloud.view.origin.cast<double>()).norm();
 }
 
 std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,

@@ -3,9 +3,9 @@
 //
 // Where the normals of a voxel cancel (their mean is shorter than a half: both sides of a thin
 // wall), that mean would be garbage: the points are split along the normals' main axis, and each
-// side makes a point. Points without a usable normal are dropped and counted. Output in voxel
-// order, whatever the order of the input. O(n log n). Fails where points have no normals at all, or
-// where the cloud is far larger than the voxels.
+// side makes a point. Points without a usable normal are left out. Output in voxel order, whatever
+// the order of the input. O(n log n). Fails where points have no normals at all, or where the cloud
+// is far larger than the voxels.
 //
 //   downsample_voxels: {in: [cloud, scale], out: small_cloud, leaf_size: 1}
 #include <Eigen/Eigenvalues>
@@ -77,10 +77,8 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
   for (std::size_t v = 0; v < voxels.size(); ++v)
     for (const Group& side : group(cloud, voxels[v]))
       if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
-  Cloud out = geometry::without_points(cloud);
-  out.dropped += static_cast<std::size_t>(cloud.points.rows()) - usable.size();
-  out.points.resize(static_cast<Eigen::Index>(groups.size()), 3);
-  out.normals.resize(out.points.rows(), 3);
+  const auto count = static_cast<Eigen::Index>(groups.size());
+  Cloud out{PointMatrix(count, 3), PointMatrix(count, 3), cloud.view};
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     out.points.row(row) = (groups[i].points / groups[i].count).cast<float>();

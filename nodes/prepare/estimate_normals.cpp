@@ -9,18 +9,23 @@
 // on RGB-D at 0.4 to 1 m: 5 to 15 mm) and widens with the noise (plane_normals.hpp; for depth
 // images image_normals.hpp).
 //
-// Points without a normal (alone, on a line) are dropped and counted; faces are left behind.
-// O(n log n), parallel. Fails where no point is left.
+// With `outward`, the scan is the whole surface of a body, as a model is: its normals are made as
+// model_normals makes them (outward_normals.hpp), and no sensor says where they point.
+//
+// Points without a normal (alone, on a line) are left out, and so are faces. O(n log n), parallel.
+// Fails where no point is left.
 //
 //   estimate_normals: {in: [scan, scale], out: oriented_scan, radius: 3, source: auto}
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/outward_normals.hpp"
 #include "nodes/geometry/plane_normals.hpp"
 #include "nodes/prepare/image_normals.hpp"
 
@@ -31,7 +36,14 @@ struct Params {
   std::string source = "auto";
   double radius = 3;
   int min_neighbours = 5;
+  bool outward = false;
 };
+
+std::string check(const Params& params) {
+  return params.outward && params.source == "file"
+             ? "outward normals are not the file's: source must be auto, faces or pca"
+             : "";
+}
 
 constexpr float kSpacings = 6;  ///< fewest of the points' own distances in a radius
 
@@ -53,7 +65,7 @@ bool agree(const PointMatrix& normals, const PointMatrix& planes) {
   return 2 * close >= both;
 }
 
-PointMatrix file_normals(const Cloud& scan) {
+PointMatrix file_normals(const Scan& scan) {
   if (scan.normals.rows() == 0) return PointMatrix::Zero(scan.points.rows(), 3);
   if (scan.normals.rows() != scan.points.rows())
     throw std::runtime_error("it has " + std::to_string(scan.normals.rows()) + " normals for " +
@@ -63,8 +75,7 @@ PointMatrix file_normals(const Cloud& scan) {
   return normals;
 }
 
-PointMatrix neighbour_planes(const Cloud& scan, const Scale& scale, const Params& params) {
-  const float smallest = static_cast<float>(params.radius) * scale.resolution;
+PointMatrix neighbour_planes(const Scan& scan, float smallest, const Params& params) {
   if (auto normals = image_normals(scan, smallest, kSpacings, params.min_neighbours))
     return *std::move(normals);
   const auto planes = geometry::suitable_planes(scan.points, smallest, kSpacings);
@@ -77,7 +88,8 @@ bool complete(const PointMatrix& normals) {
   return true;
 }
 
-Cloud estimate_normals(const Cloud& scan, const Scale& scale, const Params& params) {
+/// Toward the sensor.
+PointMatrix scan_normals(const Scan& scan, float smallest, const Params& params) {
   const auto uses = [&params](const char* source) {
     return params.source == "auto" || params.source == source;
   };
@@ -85,15 +97,23 @@ Cloud estimate_normals(const Cloud& scan, const Scale& scale, const Params& para
   if (uses("file")) normals = file_normals(scan);
   if (!complete(normals) && (uses("faces") || uses("pca"))) {
     PointMatrix planes = PointMatrix::Zero(scan.points.rows(), 3);
-    if (uses("pca")) planes = neighbour_planes(scan, scale, params);
+    if (uses("pca")) planes = neighbour_planes(scan, smallest, params);
     if (uses("faces") && scan.faces.rows() > 0) {
       const PointMatrix by_faces = geometry::face_normals(scan.points, scan.faces);
       if (agree(by_faces, planes)) fill(normals, by_faces);
     }
     fill(normals, planes);
   }
-  geometry::turn_toward(scan.viewpoint, scan.points, normals);
-  return geometry::keep_oriented(scan, normals);
+  geometry::turn_toward(scan.view.origin, scan.points, normals);
+  return normals;
+}
+
+Cloud estimate_normals(const Scan& scan, const Scale& scale, const Params& params) {
+  const float smallest = static_cast<float>(params.radius) * scale.resolution;
+  PointMatrix normals = params.outward ? geometry::outward_normals(
+                                             scan, {params.source, smallest, params.min_neighbours})
+                                       : scan_normals(scan, smallest, params);
+  return geometry::keep_oriented(scan.points, std::move(normals), scan.view);
 }
 
 const auto registered =
@@ -107,11 +127,15 @@ const auto registered =
                "noisy, else the neighbours' plane (pca).",
                graph::one_of({"auto", "file", "faces", "pca"}))
         .param("radius", &Params::radius, "x resolution",
-               "Smallest neighbourhood of a point (pca). It spans at least six of the points' own "
-               "spacings, and more where the points are noisy.",
+               "Smallest neighbourhood of a point (pca). It spans at least six (outward: three) of "
+               "the points' own spacings, and more where the points are noisy.",
                graph::greater_than(0))
         .param("min_neighbours", &Params::min_neighbours, "",
-               "Fewer points in a neighbourhood give no normal (pca).", graph::in_range(3, 1000));
+               "Fewer points in a neighbourhood give no normal (pca).", graph::in_range(3, 1000))
+        .param("outward", &Params::outward, "",
+               "The scan is a whole body: its normals point outward, not to the sensor. They are "
+               "made as model_normals makes them, the file's own are not used.")
+        .check(check);
 
 }  // namespace
 }  // namespace posevote::prepare

@@ -31,12 +31,12 @@ struct Place {
 /// A depth image as an array of points.
 class PixelPlanes {
  public:
-  explicit PixelPlanes(const Cloud& scan)
-      : width_(scan.pixels.x()),
-        height_(scan.pixels.y()),
-        viewpoint_(scan.viewpoint),
-        low_(scan.image.min()),
-        per_ray_(scan.pixels.cast<float>().cwiseQuotient(scan.image.sizes())) {
+  explicit PixelPlanes(const Scan& scan)
+      : width_(scan.view.pixels.x()),
+        height_(scan.view.pixels.y()),
+        viewpoint_(scan.view.origin),
+        low_(scan.view.image.min()),
+        per_ray_(scan.view.pixels.cast<float>().cwiseQuotient(scan.view.image.sizes())) {
     const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     for (auto* column : {&x_, &y_, &z_}) column->assign(size + geometry::kGridPadding, kNowhere);
     weights_.assign(size + geometry::kGridPadding, 0);
@@ -237,9 +237,9 @@ class PixelPlanes {
 
 }  // namespace
 
-std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, float spacings,
+std::optional<PointMatrix> image_normals(const Scan& scan, float smallest, float spacings,
                                          int min_neighbours) {
-  if (scan.pixels.minCoeff() < 1 || scan.image.isEmpty()) return std::nullopt;
+  if (scan.view.pixels.minCoeff() < 1 || scan.view.image.isEmpty()) return std::nullopt;
   const PixelPlanes planes(scan);
   const float spacing = planes.spacing();
   const float start = std::max(smallest, spacings * spacing);

@@ -14,7 +14,7 @@ namespace posevote::prepare {
 /// where they are on one surface; smooth ground has planes every four pixels and mixes them
 /// between. Parallel. None where the cloud is no depth image or its pixels are so fine that merging
 /// them first is faster.
-std::optional<PointMatrix> image_normals(const Cloud& scan, float smallest, float spacings,
+std::optional<PointMatrix> image_normals(const Scan& scan, float smallest, float spacings,
                                          int min_neighbours);
 
 }  // namespace posevote::prepare

@@ -25,7 +25,7 @@ namespace {
 
 using Params = descriptors::IndexOptions;
 
-Model assemble_model(const ModelFile& file, const Cloud& mesh, const Cloud& cloud,
+Model assemble_model(const ModelFile& file, const Mesh& mesh, const Cloud& cloud,
                      const FeatureSet& features, const NearSymmetries& near_symmetries,
                      const Outline& outline) {
   if (mesh.points.rows() == 0) throw std::runtime_error(file.path.string() + ": has no points");
@@ -53,7 +53,7 @@ void require_distinct_ids(const ModelLibrary& library) {
   }
 }
 
-ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Cloud>& meshes,
+ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& meshes,
                               const PerObject<Cloud>& clouds, const PerObject<FeatureSet>& features,
                               const PerObject<NearSymmetries>& near_symmetries,
                               const PerObject<Outline>& outlines, const Scale& scale,

@@ -21,7 +21,7 @@ struct Params {
   double finest = 0.0005;
 };
 
-Scale derive_scale(const PerObject<Cloud>& meshes, const Params& params) {
+Scale derive_scale(const PerObject<Mesh>& meshes, const Params& params) {
   if (params.resolution > 0) return {static_cast<float>(params.resolution)};
   if (meshes.slots.empty()) throw std::runtime_error("there are no models to derive a scale from");
   double sum = 0;

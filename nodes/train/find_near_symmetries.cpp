@@ -19,6 +19,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/geometry/icp.hpp"
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::train {
 namespace {
@@ -53,11 +54,7 @@ Eigen::Quaterniond spiral_rotation(std::size_t i, std::size_t count) {
 
 Cloud every(const Cloud& cloud, Eigen::Index count) {
   const Eigen::Index stride = cloud.points.rows() / count + 1;
-  const auto rows = Eigen::seq(0, Eigen::last, stride);
-  Cloud sample;
-  sample.points = cloud.points(rows, Eigen::all);
-  sample.normals = cloud.normals(rows, Eigen::all);
-  return sample;
+  return geometry::select_rows(cloud, Eigen::seq(0, Eigen::last, stride));
 }
 
 /// Share of the sample's points of which, moved, `is_on(point)` holds.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outward normals of an object model (paper, section 4, "Preprocessing").
 //
-// A mesh: area-weighted from its faces, wound outward (winding.hpp); the file's own normals are not
-// trusted. A raw cloud: planes through the neighbours (plane_normals.hpp), signs by a traversal
-// from the outermost point (orient_outward.hpp). Points without a normal (in no face, alone, on a
-// line) are dropped and counted; faces are left behind. O(n log n). Fails where no point is left.
-// On noisy meshes the faces' normals are useless: `source: pca` takes the neighbourhoods there,
-// too.
+// How they are found: outward_normals.hpp. The file's own normals are not trusted. Points without a
+// normal (in no face, alone, on a line) are left out, and so are faces. O(n log n). Fails where no
+// point is left. On noisy meshes the faces' normals are useless: `source: pca` takes the
+// neighbourhoods there, too.
 //
 //   model_normals: {in: [model_meshes, scale], out: oriented_models, radius: 3, source: auto}
 #include <string>
@@ -14,9 +12,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/geometry/normals.hpp"
-#include "nodes/geometry/plane_normals.hpp"
-#include "nodes/geometry/winding.hpp"
-#include "nodes/train/orient_outward.hpp"
+#include "nodes/geometry/outward_normals.hpp"
 
 namespace posevote::train {
 namespace {
@@ -27,20 +23,11 @@ struct Params {
   int min_neighbours = 5;
 };
 
-constexpr float kSpacings = 3;  ///< fewest of the points' own distances in a radius
-
-Cloud model_normals(const Cloud& mesh, const Scale& scale, const Params& params) {
-  if (params.source == "faces" || (params.source == "auto" && mesh.faces.rows() > 0))
-    return geometry::keep_oriented(
-        mesh, geometry::face_normals(mesh.points, geometry::wind_outward(mesh.points, mesh.faces)));
+Cloud model_normals(const Mesh& mesh, const Scale& scale, const Params& params) {
   const float smallest = static_cast<float>(params.radius) * scale.resolution;
-  const auto planes = geometry::suitable_planes(mesh.points, smallest, kSpacings);
-  PointMatrix normals = PointMatrix::Zero(mesh.points.rows(), 3);
-  if (planes) {
-    normals = planes->normals(params.min_neighbours);
-    orient_outward(mesh.points, planes->radius(), normals);
-  }
-  return geometry::keep_oriented(mesh, normals);
+  return geometry::keep_oriented(
+      mesh.points,
+      geometry::outward_normals(mesh, {params.source, smallest, params.min_neighbours}));
 }
 
 const auto registered =

@@ -28,7 +28,7 @@ formats::Rgb to_rgb(const pictures::Colour& colour) {
           static_cast<std::uint8_t>(255 * colour.z())};
 }
 
-void append(Cloud& to, const Cloud& cloud, const Eigen::Isometry3f& pose) {
+void append(Mesh& to, const Cloud& cloud, const Eigen::Isometry3f& pose) {
   const Eigen::Index before = to.points.rows();
   const Eigen::Index added = cloud.points.rows();
   to.points.conservativeResize(before + added, 3);
@@ -45,7 +45,7 @@ void write_overlay(const Cloud& scan, const Detections& detections, const ModelL
                    const graph::FrameContext& context, const Params& params) {
   if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
   if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
-  Cloud overlay;
+  Mesh overlay;
   append(overlay, scan, Eigen::Isometry3f::Identity());
   std::vector<formats::Rgb> colours(static_cast<std::size_t>(scan.points.rows()),
                                     formats::Rgb{160, 160, 155});

@@ -17,7 +17,7 @@
 #include "nodes/data/model.hpp"
 #include "nodes/data/votes.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/nearest_index.hpp"
@@ -34,16 +34,15 @@ using test::run_node;
 constexpr float kResolution = 0.0025F;  // [m]
 
 struct Scene {
-  Cloud raw, oriented, cloud;
+  Cloud oriented, cloud;
   FeaturePoints points;
   FeatureSet features;
 };
 
-Scene prepare(const Cloud& raw, const std::string& normals) {
+Scene prepare(Cloud oriented) {
   const Scale scale{kResolution};
   Scene scene;
-  scene.raw = raw;
-  scene.oriented = run_node<Cloud>(normals, {}, raw, scale);
+  scene.oriented = std::move(oriented);
   scene.cloud = run_node<Cloud>("downsample_voxels", {}, scene.oriented, scale);
   scene.points = run_node<FeaturePoints>("pick_feature_points", {}, scene.cloud, scale);
   scene.features =
@@ -52,21 +51,21 @@ Scene prepare(const Cloud& raw, const std::string& normals) {
 }
 
 struct Setting {
-  Cloud mesh;
+  Mesh mesh;
+  Scan raw;
   Scene model, scan;
   Eigen::Isometry3d T_scene_model;
 
   Setting() {
     mesh = make_shape("figure", 1, 0.25);
-    model = prepare(mesh, "model_normals");
-    const auto shared = std::make_shared<const Cloud>(mesh);
+    model = prepare(run_node<Cloud>("model_normals", {}, mesh, Scale{kResolution}));
+    const auto shared = std::make_shared<const Mesh>(mesh);
     std::vector<Body> bodies{{shared, 1, Eigen::Isometry3d::Identity()}, make_table(1.2)};
     bodies[0].T_world_body.translation().z() = 0.12;
     const Sensor sensor = find_sensor("rgbd");
     const Eigen::Isometry3d T_world_sensor = look_at({0, 0, 0.05}, 0.8, std::numbers::pi / 4, 0.3);
-    scan =
-        prepare(points_of(posevote::scan(bodies, sensor, T_world_sensor, 1).depth, sensor.camera),
-                "estimate_normals");
+    raw = points_of(posevote::scan(bodies, sensor, T_world_sensor, 1).depth, sensor.camera);
+    scan = prepare(run_node<Cloud>("estimate_normals", {}, raw, Scale{kResolution}));
     T_scene_model = T_world_sensor.inverse() * bodies[0].T_world_body;
   }
 };
@@ -90,7 +89,7 @@ struct PlyFile {
 
 void read_ply(benchmark::State& state) {
   const PlyFile file;
-  for (auto _ : state) benchmark::DoNotOptimize(formats::read_cloud(file.path, 1));
+  for (auto _ : state) benchmark::DoNotOptimize(formats::read_mesh(file.path, 1));
   count_items(state, setting().mesh.points.rows());
 }
 
@@ -107,8 +106,8 @@ void read_ply_pcl(benchmark::State& state) {
 void estimate_normals(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        run_node<Cloud>("estimate_normals", {}, setting().scan.raw, Scale{kResolution}));
-  count_items(state, setting().scan.raw.points.rows());
+        run_node<Cloud>("estimate_normals", {}, setting().raw, Scale{kResolution}));
+  count_items(state, setting().raw.points.rows());
 }
 
 void downsample(benchmark::State& state) {

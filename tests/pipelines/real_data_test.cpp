@@ -8,7 +8,7 @@
 #include <fstream>
 #include <regex>
 
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "tests/support/command.hpp"
 
@@ -45,7 +45,7 @@ struct PoseError {
   double degrees;
 };
 
-PoseError difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Cloud& model) {
+PoseError difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Mesh& model) {
   const Eigen::Vector3d center =
       0.5 * (model.points.colwise().minCoeff() + model.points.colwise().maxCoeff())
                 .transpose()
@@ -88,7 +88,7 @@ TEST_CASE("all four objects of a real laser scan, at any thread count", "[real]"
     REQUIRE(found.size() == 4);
     for (const nlohmann::json& detection : found) {
       const auto name = detection["model"].get<std::string>();
-      const Cloud model = formats::read_cloud(data / "models" / (name + ".ply"), 1e-3);
+      const Mesh model = formats::read_mesh(data / "models" / (name + ".ply"), 1e-3);
       const PoseError error = difference(
           pose_of(detection), read_xf(data / "ground_truth" / (name + "-rs1.xf")), model);
       INFO(name << ": " << error.millimetres << " mm, " << error.degrees << " deg, density "
@@ -104,17 +104,17 @@ TEST_CASE("the Bunny onto itself under a random pose, without ICP", "[real]") {
   const std::filesystem::path file = real_data() / "bunny/bunny.ply";
   if (skipped(file)) return;
   const TemporaryFolder folder;
-  const Cloud bunny = formats::read_cloud(file, 1);
+  const Mesh bunny = formats::read_mesh(file, 1);
   const std::string config = folder.write("bunny.yaml",
                                           "pipeline: recognize\n"
-                                          "estimate_normals: {node: model_normals}\n"
+                                          "estimate_normals: {outward: true}\n"
                                           "segment_objects: {refine: false}\n");
   srand(7);
   for (int trial = 0; trial < 3; ++trial) {
     Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
     truth.linear() = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
     truth.translation() = Eigen::Vector3d(0.1, -0.2, 1.0 + trial);
-    Cloud moved = bunny;
+    Mesh moved = bunny;
     moved.points =
         ((truth.linear() * bunny.points.cast<double>().transpose()).colwise() + truth.translation())
             .transpose()

@@ -16,6 +16,7 @@
 
 #include "nodes/data/model.hpp"
 #include "nodes/geometry/outline.hpp"
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::test {
 
@@ -85,19 +86,20 @@ inline Cloud bumpy_cloud(int shape, float spacing, double roll = 0) {
   return cloud;
 }
 
+/// Every `step`-th point.
+inline FeatureSet features_of(const Cloud& cloud, Eigen::Index step = 6) {
+  const auto rows = Eigen::seqN(0, cloud.points.rows() / step, step);
+  Cloud some = geometry::select_rows(cloud, rows);
+  return {std::move(some.points), std::move(some.normals), {}, {}};
+}
+
 /// A model whose feature points are every fourth point of its cloud.
 inline std::shared_ptr<const Model> bumpy_model(int shape) {
   auto model = std::make_shared<Model>();
   model->name = "bumpy" + std::to_string(shape);
   model->obj_id = shape;
   model->cloud = bumpy_cloud(shape, kResolution);
-  const Eigen::Index features = model->cloud.points.rows() / 4;
-  model->features.points.resize(features, 3);
-  model->features.normals.resize(features, 3);
-  for (Eigen::Index i = 0; i < features; ++i) {
-    model->features.points.row(i) = model->cloud.points.row(4 * i);
-    model->features.normals.row(i) = model->cloud.normals.row(4 * i);
-  }
+  model->features = features_of(model->cloud, 4);
   const Eigen::RowVector3f low = model->cloud.points.colwise().minCoeff();
   const Eigen::RowVector3f high = model->cloud.points.colwise().maxCoeff();
   model->center = (0.5F * (low + high)).transpose();
@@ -158,7 +160,7 @@ inline std::pair<int, int> ray_cell(const Eigen::RowVector3f& p) {
 /// What a sensor at the origin sees of the bodies and a wall at z = 1.3 m: points that face it and
 /// that nothing hides. `with_wall` false leaves the wall out.
 inline Cloud scan_of(const std::vector<Placed>& bodies, bool with_wall = true) {
-  Cloud all, scan;
+  Cloud all;
   all.points.resize(0, 3);
   all.normals.resize(0, 3);
   for (const Placed& body : bodies)
@@ -175,22 +177,7 @@ inline Cloud scan_of(const std::vector<Placed>& bodies, bool with_wall = true) {
     const float front = nearest.at(detail::ray_cell(all.points.row(i)));
     if (faces && all.points(i, 2) < front + 0.02F) seen.push_back(i);
   }
-  scan.points = all.points(seen, Eigen::all);
-  scan.normals = all.normals(seen, Eigen::all);
-  return scan;
-}
-
-/// Every `step`-th point of a scan.
-inline FeatureSet features_of(const Cloud& scan, Eigen::Index step = 6) {
-  FeatureSet features;
-  const Eigen::Index count = scan.points.rows() / step;
-  features.points.resize(count, 3);
-  features.normals.resize(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    features.points.row(i) = scan.points.row(step * i);
-    features.normals.row(i) = scan.normals.row(step * i);
-  }
-  return features;
+  return geometry::select_rows(all, seen);
 }
 
 /// Matches of one object: scene features on one of its instances get the model feature that lies

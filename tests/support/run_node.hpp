@@ -8,17 +8,32 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "graph/registry.hpp"
 
 namespace posevote::test {
 
-/// Returns the node's output. Throws std::invalid_argument for an unknown node or parameter, or a
-/// value that is out of range, and whatever the node throws.
+/// Throws std::invalid_argument where a value is not what the node takes.
+template <class... In>
+void check_inputs(const graph::NodeSpec& spec) {
+  const std::vector<graph::StreamType> given{graph::StreamTraits<In>::type()...};
+  if (given.size() != spec.inputs.size())
+    throw std::invalid_argument(spec.name + " takes " + std::to_string(spec.inputs.size()) +
+                                " inputs, not " + std::to_string(given.size()));
+  for (std::size_t i = 0; i < given.size(); ++i)
+    if (!(given[i] == spec.inputs[i].type))
+      throw std::invalid_argument(spec.name + "." + spec.inputs[i].name + " is a " +
+                                  spec.inputs[i].type.name + ", not a " + given[i].name);
+}
+
+/// Returns the node's output. Throws std::invalid_argument for an unknown node or parameter, inputs
+/// of other types than the node's, or a value that is out of range, and whatever the node throws.
 template <class Out, class... In>
 Out run_node(const std::string& name, const std::map<std::string, std::string>& values, In... in) {
   const graph::NodeSpec* spec = graph::find_node(name);
   if (!spec) throw std::invalid_argument("no node is called " + name);
+  check_inputs<In...>(*spec);
   const std::shared_ptr<void> params = spec->make_params();
   for (const auto& [key, text] : values) {
     bool known = false;

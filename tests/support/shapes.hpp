@@ -28,29 +28,28 @@ inline PointMatrix sphere(int count, float radius) {
 }
 
 /// A box of 12 faces around `center`, wound outward (or inward), corners not shared with others.
-inline Cloud box(const Eigen::RowVector3f& center, float edge, bool inward = false) {
-  Cloud cloud;
-  cloud.points.resize(8, 3);
+inline Mesh box(const Eigen::RowVector3f& center, float edge, bool inward = false) {
+  Mesh mesh;
+  mesh.points.resize(8, 3);
   for (int i = 0; i < 8; ++i)
-    cloud.points.row(i) =
-        center + edge * Eigen::RowVector3f(static_cast<float>(i & 1) - 0.5F,
-                                           static_cast<float>((i >> 1) & 1) - 0.5F,
-                                           static_cast<float>(i >> 2) - 0.5F);
-  cloud.faces.resize(12, 3);
-  cloud.faces << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2,
+    mesh.points.row(i) = center + edge * Eigen::RowVector3f(static_cast<float>(i & 1) - 0.5F,
+                                                            static_cast<float>((i >> 1) & 1) - 0.5F,
+                                                            static_cast<float>(i >> 2) - 0.5F);
+  mesh.faces.resize(12, 3);
+  mesh.faces << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2,
       4, 6, 1, 3, 5, 3, 7, 5;
-  if (inward) cloud.faces.col(1).swap(cloud.faces.col(2));
-  return cloud;
+  if (inward) mesh.faces.col(1).swap(mesh.faces.col(2));
+  return mesh;
 }
 
 /// Both meshes as one.
-inline Cloud joined(const Cloud& a, const Cloud& b) {
-  Cloud cloud;
-  cloud.points.resize(a.points.rows() + b.points.rows(), 3);
-  cloud.points << a.points, b.points;
-  cloud.faces.resize(a.faces.rows() + b.faces.rows(), 3);
-  cloud.faces << a.faces, (b.faces.array() + static_cast<std::uint32_t>(a.points.rows())).matrix();
-  return cloud;
+inline Mesh joined(const Mesh& a, const Mesh& b) {
+  Mesh mesh;
+  mesh.points.resize(a.points.rows() + b.points.rows(), 3);
+  mesh.points << a.points, b.points;
+  mesh.faces.resize(a.faces.rows() + b.faces.rows(), 3);
+  mesh.faces << a.faces, (b.faces.array() + static_cast<std::uint32_t>(a.points.rows())).matrix();
+  return mesh;
 }
 
 /// Moves each point by a vector from a ball of radius `most` [m].

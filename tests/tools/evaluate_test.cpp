@@ -24,7 +24,7 @@ const std::string kFlip = "-1 0 0 0 -1 0 0 0 1";  // 180 deg about z
 class Set : public TemporaryFolder {
  public:
   Set() {
-    Cloud bar;
+    Mesh bar;
     bar.points.resize(8, 3);
     for (int i = 0; i < 8; ++i)
       bar.points.row(i) << (i & 1 ? 110.F : -90.F), (i & 2 ? 20.F : -20.F), (i & 4 ? 10.F : -10.F);

@@ -13,7 +13,7 @@ namespace {
 
 /// 1 inside a closed mesh, 0 outside: the solid angle that it covers, over 4 pi (van Oosterom,
 /// Strackee 1983).
-double winding_number(const Cloud& mesh, const Eigen::Vector3d& point) {
+double winding_number(const Mesh& mesh, const Eigen::Vector3d& point) {
   double sum = 0;
   for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
     Eigen::Matrix3d m;
@@ -29,7 +29,7 @@ double winding_number(const Cloud& mesh, const Eigen::Vector3d& point) {
 
 std::vector<Body> heap(const std::string& shape, std::size_t count, double radius, bool walls,
                        std::uint64_t seed) {
-  const auto mesh = std::make_shared<Cloud>(make_shape(shape, 1, 0.12));
+  const auto mesh = std::make_shared<Mesh>(make_shape(shape, 1, 0.12));
   std::vector<Body> bodies(count, Body{mesh, 1, Eigen::Isometry3d::Identity()});
   Random random(seed);
   settle(bodies, radius, walls, random);

@@ -13,7 +13,7 @@ namespace {
 
 Body ball(double radius, const Eigen::Vector3d& center) {
   const double r = radius;
-  const auto mesh = std::make_shared<Cloud>(
+  const auto mesh = std::make_shared<Mesh>(
       surface_nets([r](const Eigen::Vector3d& p) { return p.norm() - r; }, 1.3 * r, r / 40));
   Body body{mesh, 1, Eigen::Isometry3d::Identity()};
   body.T_world_body.translation() = center;
@@ -29,8 +29,8 @@ TEST_CASE("the points of a scanned ball lie on it, within the noise", "[simulate
     INFO(name);
     const Sensor sensor = find_sensor(name);
     const Eigen::Vector3d center(0.03, -0.02, 0.8);
-    const Scan seen = scan({ball(0.1, center)}, sensor, kAtOrigin, 1);
-    const Cloud cloud = points_of(seen.depth, sensor.camera);
+    const SimulatedScan seen = scan({ball(0.1, center)}, sensor, kAtOrigin, 1);
+    const Scan cloud = points_of(seen.depth, sensor.camera);
     const double pixels = std::numbers::pi * std::pow(0.1 * sensor.camera.fx / 0.8, 2);
     CHECK(seen.views[0].alone == Approx(pixels).epsilon(0.05));
     double sum = 0, squares = 0;
@@ -56,9 +56,9 @@ TEST_CASE("the points of a scanned ball lie on it, within the noise", "[simulate
 TEST_CASE("visible fractions: half behind, wholly behind, in front", "[simulate]") {
   Sensor sensor = find_sensor("laser");
   const Body far = ball(0.1, {0, 0, 1.0});
-  Body wall{std::make_shared<Cloud>(*make_table(1).mesh), 0, Eigen::Isometry3d::Identity()};
+  Body wall{std::make_shared<Mesh>(*make_table(1).mesh), 0, Eigen::Isometry3d::Identity()};
   wall.T_world_body.translation() = Eigen::Vector3d(0.5, 0, 0.7);  // covers x > 0
-  const Scan half = scan({far, wall}, sensor, kAtOrigin, 1);
+  const SimulatedScan half = scan({far, wall}, sensor, kAtOrigin, 1);
   CHECK(half.views[0].fraction() == Approx(0.5).margin(0.01));
   CHECK(half.views[0].box_visible.width == Approx(half.views[0].box_alone.width / 2.0).margin(2));
   wall.T_world_body.translation().x() = 0;
@@ -72,7 +72,7 @@ TEST_CASE("surfaces seen at a grazing angle give no return", "[simulate]") {
   plane.T_world_body = Eigen::Translation3d(0, 0.1, 2) *
                        Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
   const Sensor sensor = find_sensor("laser");
-  const Cloud cloud = points_of(scan({plane}, sensor, kAtOrigin, 1).depth, sensor.camera);
+  const Scan cloud = points_of(scan({plane}, sensor, kAtOrigin, 1).depth, sensor.camera);
   REQUIRE(cloud.points.rows() > 1000);
   const Eigen::VectorXf cosines = 0.1F * cloud.points.rowwise().norm().cwiseInverse();
   CHECK(cosines.minCoeff() > sensor.grazing_cosine - 0.01);
@@ -90,12 +90,12 @@ TEST_CASE("the sensor looks at its target, upright", "[simulate]") {
 TEST_CASE("of a far ball's surface nearly half is seen, of a hidden one's nothing", "[simulate]") {
   const Sensor sensor = find_sensor("laser");
   const Body near = ball(0.1, {0, 0, 1.0}), hidden = ball(0.05, {0, 0, 1.5});
-  const Scan seen = scan({near, hidden}, sensor, kAtOrigin, 1);
+  const SimulatedScan seen = scan({near, hidden}, sensor, kAtOrigin, 1);
   CHECK(seen.views[0].surface == Approx(0.45).margin(0.01));  // (1 - r / d) / 2: a spherical cap
   CHECK(seen.views[1].surface == 0);
   // Half out of the image.
   const double left_border = -sensor.camera.cx / sensor.camera.fx;
-  const Scan cut = scan({ball(0.1, {left_border, 0, 1.0})}, sensor, kAtOrigin, 1);
+  const SimulatedScan cut = scan({ball(0.1, {left_border, 0, 1.0})}, sensor, kAtOrigin, 1);
   CHECK(cut.views[0].surface == Approx(0.225).margin(0.03));
 }
 

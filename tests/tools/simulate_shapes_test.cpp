@@ -11,7 +11,7 @@ using namespace posevote;
 
 namespace {
 
-double volume(const Cloud& mesh) {
+double volume(const Mesh& mesh) {
   double sum = 0;
   for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
     Eigen::Matrix3d corners;
@@ -23,7 +23,7 @@ double volume(const Cloud& mesh) {
 }
 
 /// Every edge is used once in each direction.
-bool is_closed(const Cloud& mesh) {
+bool is_closed(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face)
     for (int k = 0; k < 3; ++k) ++uses[{mesh.faces(face, k), mesh.faces(face, (k + 1) % 3)}];
@@ -35,7 +35,7 @@ bool is_closed(const Cloud& mesh) {
 }  // namespace
 
 TEST_CASE("surface nets of a sphere: on it, closed, outward", "[simulate]") {
-  const Cloud mesh = surface_nets([](const Eigen::Vector3d& p) { return p.norm() - 1; }, 1.5, 0.1);
+  const Mesh mesh = surface_nets([](const Eigen::Vector3d& p) { return p.norm() - 1; }, 1.5, 0.1);
   CHECK((mesh.points.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-4F);
   CHECK(is_closed(mesh));
   CHECK(volume(mesh) == Approx(4.18879).epsilon(0.02));
@@ -45,7 +45,7 @@ TEST_CASE("every shape is closed, outward and of the size asked for", "[simulate
   REQUIRE(shape_names().size() >= 5);
   for (const std::string& name : shape_names()) {
     INFO(name);
-    const Cloud mesh = make_shape(name, 1, 0.2);
+    const Mesh mesh = make_shape(name, 1, 0.2);
     CHECK(mesh.points.allFinite());
     CHECK(mesh.points.rows() >= 5000);
     CHECK(mesh.points.rows() <= 50000);
@@ -59,10 +59,10 @@ TEST_CASE("every shape is closed, outward and of the size asked for", "[simulate
 }
 
 TEST_CASE("a shape depends on its seed alone", "[simulate]") {
-  const Cloud first = make_shape("horn", 1, 0.2), again = make_shape("horn", 1, 0.2);
+  const Mesh first = make_shape("horn", 1, 0.2), again = make_shape("horn", 1, 0.2);
   CHECK(first.points == again.points);
   CHECK(first.faces == again.faces);
-  const Cloud other = make_shape("horn", 2, 0.2);
+  const Mesh other = make_shape("horn", 2, 0.2);
   CHECK((other.points.rows() != first.points.rows() || other.points != first.points));
   CHECK_THROWS_AS(make_shape("cube", 1, 0.2), std::invalid_argument);
 }

@@ -7,7 +7,7 @@
 
 #include "graph/problem.hpp"
 #include "nodes/formats/depth_image.hpp"
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "nodes/geometry/nearest_index.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -57,8 +57,8 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
 
   const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "a", "test");
   REQUIRE(truth.instances.size() == 3);
-  for (const layouts::TrueInstance& instance : truth.instances) {
-    const Cloud scan = formats::read_cloud(
+  for (const TrueInstance& instance : truth.instances) {
+    const Scan scan = formats::read_scan(
         folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
     const geometry::NearestIndex surface(scan.points, 0.01F);
     const std::vector<char> none_hidden(static_cast<std::size_t>(scan.points.rows()), 0);
@@ -90,7 +90,7 @@ TEST_CASE("depth image and PLY scan hold the same points", "[simulate]") {
       nlohmann::json::parse(read_text(folder / "out" / "test/000001/scene_camera.json"))["0"];
   const double scale = camera["depth_scale"].get<double>();
   const auto k = camera["cam_K"].get<std::vector<double>>();
-  const Cloud scan = formats::read_cloud(folder / "out" / "scans/000000.ply", 1);
+  const Scan scan = formats::read_scan(folder / "out" / "scans/000000.ply", 1);
   Eigen::Index i = 0;
   double worst = 0;
   for (std::size_t pixel = 0; pixel < depth.values.size(); ++pixel) {

@@ -57,10 +57,10 @@ std::string scan_file(const fs::path& folder, std::size_t points) {
   const int plots = std::max(1, static_cast<int>(std::lround(extent / kPlot)));
   std::vector<Body> bodies;
   Random random(1, points);
-  std::vector<std::shared_ptr<const Cloud>> meshes;
+  std::vector<std::shared_ptr<const Mesh>> meshes;
   meshes.reserve(kKinds.size());
   for (const std::string& kind : kKinds)
-    meshes.push_back(std::make_shared<const Cloud>(make_shape(kind, 1, kSize)));
+    meshes.push_back(std::make_shared<const Mesh>(make_shape(kind, 1, kSize)));
   for (int i = 0; i < plots * plots; ++i) {
     Body body{meshes[static_cast<std::size_t>(i) % meshes.size()], i + 1,
               Eigen::Isometry3d::Identity()};
@@ -77,7 +77,8 @@ std::string scan_file(const fs::path& folder, std::size_t points) {
   sensor.camera.fx = sensor.camera.fy = kDistance / kPixel;
   sensor.camera.cx = sensor.camera.cy = static_cast<double>(side) / 2;
   sensor.camera.depth_scale = 0.2;  // 16 bits reach 13 m
-  const Scan made = scan(bodies, sensor, look_at({0, 0, 0}, kDistance, std::numbers::pi / 2, 0), 1);
+  const SimulatedScan made =
+      scan(bodies, sensor, look_at({0, 0, 0}, kDistance, std::numbers::pi / 2, 0), 1);
   formats::write_ply(file, points_of(made.depth, sensor.camera));
   return file.string();
 }

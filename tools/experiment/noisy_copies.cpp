@@ -17,8 +17,8 @@ Eigen::Isometry3d random_pose(Random& random) {
   return pose;
 }
 
-Cloud displaced(const Cloud& model, double most, const Eigen::Isometry3d& pose, Random& random) {
-  Cloud copy;
+Mesh displaced(const Cloud& model, double most, const Eigen::Isometry3d& pose, Random& random) {
+  Mesh copy;
   copy.points.resize(model.points.rows(), 3);
   for (Eigen::Index i = 0; i < model.points.rows(); ++i) {
     const Eigen::Vector3d point = model.points.row(i).transpose().cast<double>();

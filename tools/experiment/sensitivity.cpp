@@ -12,11 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/normals.hpp"
-#include "nodes/geometry/rotation.hpp"
-#include "nodes/geometry/winding.hpp"
+#include "nodes/geometry/outward_normals.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/results_csv.hpp"
 #include "tools/experiment/correspondence_quality.hpp"
@@ -70,7 +69,7 @@ double worst_of(const std::vector<Errors>& errors, double Errors::*value) {
 /// The model to use, in metres, and the file that it is in.
 struct Subject {
   fs::path file;
-  Cloud mesh;  ///< with outward normals
+  Cloud cloud;  ///< all its points, with outward normals
 };
 
 Subject find_subject(const std::string& dataset, const fs::path& out) {
@@ -82,17 +81,16 @@ Subject find_subject(const std::string& dataset, const fs::path& out) {
   } else if (fs::is_directory(dataset)) {
     subject.file = fs::path(dataset) / "bunny.ply";
   }
+  Mesh mesh;
   try {
-    subject.mesh = formats::read_cloud(subject.file, 1);
+    mesh = formats::read_mesh(subject.file, 1);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(subject.file.string() + ": " + error.what());
   }
-  if (subject.mesh.faces.rows() == 0)
+  if (mesh.faces.rows() == 0)
     throw std::invalid_argument(subject.file.string() + ": has no faces, expected a mesh in m");
-  subject.mesh = geometry::keep_oriented(
-      subject.mesh,
-      geometry::face_normals(subject.mesh.points,
-                             geometry::wind_outward(subject.mesh.points, subject.mesh.faces)));
+  subject.cloud =
+      geometry::keep_oriented(mesh.points, geometry::outward_normals(mesh, {.source = "faces"}));
   return subject;
 }
 
@@ -253,16 +251,16 @@ int sensitivity_experiment(const ExperimentCommand& command, const fs::path& out
   fs::create_directories(out);
   const Subject subject = find_subject(command.dataset, out);
   const std::vector<NoisyCopy> copies = make_noisy_copies(
-      subject.mesh, out / "scans", noise_levels(command.quick), command.quick ? 1 : 10);
+      subject.cloud, out / "scans", noise_levels(command.quick), command.quick ? 1 : 10);
 
   std::map<std::string, std::vector<Errors>> errors;
   for (const Method& method : methods) {
     const int status = run_method(method, subject, out / "scans", out, interrupted);
     if (status != 0) return status;
     errors[method.name] =
-        errors_of(copies, center_of(subject.mesh), out / method.name / "results.csv");
+        errors_of(copies, center_of(subject.cloud), out / method.name / "results.csv");
   }
-  const CorrespondenceJudge judge(subject.mesh, kSamePoint);
+  const CorrespondenceJudge judge(subject.cloud, kSamePoint);
   std::vector<CorrespondenceQuality> quality;
   quality.reserve(copies.size());
   for (const NoisyCopy& copy : copies)

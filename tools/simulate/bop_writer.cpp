@@ -84,7 +84,7 @@ BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
     fs::create_directories(folder);  // std::filesystem_error is a runtime_error that names it
 }
 
-void BopWriter::add_model(int obj_id, const Cloud& mesh, bool is_round) {
+void BopWriter::add_model(int obj_id, const Mesh& mesh, bool is_round) {
   formats::write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
   ordered_json entry{{"diameter", rounded(geometry::diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
@@ -97,7 +97,7 @@ void BopWriter::add_model(int obj_id, const Cloud& mesh, bool is_round) {
 }
 
 void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
-                          const Eigen::Isometry3d& T_world_sensor, const Scan& scan) {
+                          const Eigen::Isometry3d& T_world_sensor, const SimulatedScan& scan) {
   const int im_id = images_++;
   const std::string key = std::to_string(im_id), name = six_digits(im_id);
   const Camera& camera = sensor.camera;

@@ -17,10 +17,10 @@ class BopWriter {
   explicit BopWriter(std::filesystem::path out);
 
   /// `is_round`: it looks the same however it is turned about z.
-  void add_model(int obj_id, const Cloud& mesh, bool is_round);
+  void add_model(int obj_id, const Mesh& mesh, bool is_round);
   /// The next image (0, 1 ...) of scene 1. Bodies with an obj_id of 0 are not part of the truth.
   void add_image(const std::vector<Body>& bodies, const Sensor& sensor,
-                 const Eigen::Isometry3d& T_world_sensor, const Scan& scan);
+                 const Eigen::Isometry3d& T_world_sensor, const SimulatedScan& scan);
   /// Writes the lists of all models and images.
   void finish() const;
   /// Whether a writer makes a file or folder of this name in the set's folder.

@@ -26,7 +26,7 @@ btVector3 to_bullet(const Eigen::Vector3d& v) {
           static_cast<btScalar>(scaled.z())};
 }
 
-Eigen::Vector3d corner(const Cloud& mesh, Eigen::Index face, int k) {
+Eigen::Vector3d corner(const Mesh& mesh, Eigen::Index face, int k) {
   return mesh.points.row(mesh.faces(face, k)).transpose().cast<double>();
 }
 
@@ -35,7 +35,7 @@ struct Mass {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
 };
 
-Mass mass_of(const Cloud& mesh) {
+Mass mass_of(const Mesh& mesh) {
   Mass mass;
   for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
     const Eigen::Vector3d a = corner(mesh, face, 0), b = corner(mesh, face, 1),
@@ -49,7 +49,7 @@ Mass mass_of(const Cloud& mesh) {
 }
 
 /// The corners of each piece of a surface that cubes cut out of it.
-std::vector<std::set<std::uint32_t>> cut_up(const Cloud& mesh) {
+std::vector<std::set<std::uint32_t>> cut_up(const Mesh& mesh) {
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const double cube = (mesh.points.colwise().maxCoeff() - low).maxCoeff() / double{kPieces};
   std::map<std::array<int, 3>, std::set<std::uint32_t>> pieces;
@@ -70,7 +70,7 @@ std::vector<std::set<std::uint32_t>> cut_up(const Cloud& mesh) {
 
 /// The corners that reach farthest in any of the 26 directions of a cube's neighbours:
 /// about their convex hull, of a size that collisions are found fast with.
-std::set<std::uint32_t> extremes(const Cloud& mesh, const std::set<std::uint32_t>& corners) {
+std::set<std::uint32_t> extremes(const Mesh& mesh, const std::set<std::uint32_t>& corners) {
   std::set<std::uint32_t> found;
   for (int i = 0; i < 27; ++i) {
     const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
@@ -88,9 +88,9 @@ std::set<std::uint32_t> extremes(const Cloud& mesh, const std::set<std::uint32_t
 /// A body in Bullet, its frame at the centre of its mass.
 class Solid {
  public:
-  explicit Solid(const Cloud& mesh) : Solid(mesh, mass_of(mesh)) {}
+  explicit Solid(const Mesh& mesh) : Solid(mesh, mass_of(mesh)) {}
 
-  Solid(const Cloud& mesh, const Mass& whole)
+  Solid(const Mesh& mesh, const Mass& whole)
       : center_(whole.center),
         reach_((mesh.points.cast<double>().rowwise() - center_.transpose())
                    .rowwise()
@@ -137,7 +137,7 @@ class Solid {
   }
 
  private:
-  void add_hull(const Cloud& mesh, const std::set<std::uint32_t>& corners) {
+  void add_hull(const Mesh& mesh, const std::set<std::uint32_t>& corners) {
     auto hull = std::make_unique<btConvexHullShape>();
     for (const std::uint32_t i : extremes(mesh, corners))
       hull->addPoint(to_bullet(mesh.points.row(i).transpose().cast<double>() - center_), false);

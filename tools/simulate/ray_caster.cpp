@@ -13,7 +13,7 @@ struct RayCaster::Geometry {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<std::vector<Eigen::Vector3f>> vertices;  // one list a body, sensor frame
-  std::vector<std::shared_ptr<const Cloud>> meshes;
+  std::vector<std::shared_ptr<const Mesh>> meshes;
 
   Geometry() {
     // One instruction set for all machines: its rounding would decide which triangle of two that
@@ -40,7 +40,7 @@ struct RayCaster::Geometry {
 
 void RayCaster::Geometry::attach(const Body& body, const Eigen::Isometry3d& T_sensor_world) {
   const Eigen::Isometry3d T_sensor_body = T_sensor_world * body.T_world_body;
-  const Cloud& mesh = *body.mesh;
+  const Mesh& mesh = *body.mesh;
   std::vector<Eigen::Vector3f> moved;
   for (Eigen::Index i = 0; i < mesh.points.rows(); ++i) {
     const Eigen::Vector3d point = mesh.points.row(i).transpose().cast<double>();

@@ -130,12 +130,12 @@ std::vector<double> seen_surfaces(const std::vector<Body>& bodies, const Sensor&
   return seen;
 }
 
-Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
-          const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed) {
+SimulatedScan scan(const std::vector<Body>& bodies, const Sensor& sensor,
+                   const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed) {
   const Eigen::Isometry3d T_sensor_world = T_world_sensor.inverse();
   const RayCaster caster(bodies, T_sensor_world);
   const Shot shot = shoot(caster, sensor);
-  Scan made{take_image(shot.truth, sensor, seed), std::vector<BodyView>(bodies.size())};
+  SimulatedScan made{take_image(shot.truth, sensor, seed), std::vector<BodyView>(bodies.size())};
   graph::parallel_for(bodies.size(), 1, [&](std::size_t i) {
     made.views[i] = pixels_of(bodies[i], static_cast<int>(i), T_sensor_world, shot, made.depth);
     made.views[i].surface = seen_surface(bodies[i], i, sensor, caster);
@@ -143,8 +143,8 @@ Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
   return made;
 }
 
-Cloud points_of(const formats::DepthImage& depth, const Camera& camera) {
-  Cloud cloud;
+Scan points_of(const formats::DepthImage& depth, const Camera& camera) {
+  Scan cloud;
   cloud.points.resize(static_cast<Eigen::Index>(depth.values.size()), 3);
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < depth.values.size(); ++i) {

@@ -25,7 +25,8 @@ struct BodyView {
   double fraction() const { return alone > 0 ? static_cast<double>(visible) / alone : 0; }
 };
 
-struct Scan {
+/// What the sensor measured, and what is true of it.
+struct SimulatedScan {
   formats::DepthImage depth;
   std::vector<BodyView> views;  ///< one a body
 };
@@ -35,11 +36,11 @@ std::vector<double> seen_surfaces(const std::vector<Body>& bodies, const Sensor&
                                   const Eigen::Isometry3d& T_world_sensor);
 
 /// Scans the bodies. The same arguments give the same bits at any number of threads.
-Scan scan(const std::vector<Body>& bodies, const Sensor& sensor,
-          const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed);
+SimulatedScan scan(const std::vector<Body>& bodies, const Sensor& sensor,
+                   const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed);
 
 /// The points that a depth image holds [m], row by row, in the sensor's frame.
-Cloud points_of(const formats::DepthImage& depth, const Camera& camera);
+Scan points_of(const formats::DepthImage& depth, const Camera& camera);
 
 /// A sensor that looks at `target` from `distance`, `elevation` above the horizon and `azimuth`
 /// around it [m, rad].

@@ -4,7 +4,7 @@
 namespace posevote {
 namespace {
 
-void append_box(Cloud& mesh, const Eigen::RowVector3f& low, const Eigen::RowVector3f& high) {
+void append_box(Mesh& mesh, const Eigen::RowVector3f& low, const Eigen::RowVector3f& high) {
   const auto first = static_cast<std::uint32_t>(mesh.points.rows());
   mesh.points.conservativeResize(first + 8, 3);
   for (unsigned corner = 0; corner < 8; ++corner)
@@ -22,26 +22,26 @@ void append_box(Cloud& mesh, const Eigen::RowVector3f& low, const Eigen::RowVect
 }  // namespace
 
 Body make_table(double side) {
-  Cloud mesh;
+  Mesh mesh;
   const auto half = static_cast<float>(side / 2);
   mesh.points.resize(4, 3);
   mesh.points << -half, -half, 0, half, -half, 0, half, half, 0, -half, half, 0;
   mesh.faces.resize(2, 3);
   mesh.faces << 0, 1, 2, 0, 2, 3;
-  return {std::make_shared<Cloud>(std::move(mesh)), 0, Eigen::Isometry3d::Identity()};
+  return {std::make_shared<Mesh>(std::move(mesh)), 0, Eigen::Isometry3d::Identity()};
 }
 
 Body make_bin(double radius) {
   constexpr float kWall = 0.006F, kHeight = 0.1F;
   const auto in = static_cast<float>(radius);
   const float out = in + kWall;
-  Cloud mesh;
+  Mesh mesh;
   append_box(mesh, {-out, -out, -kWall}, {out, out, 0});
   append_box(mesh, {-out, -out, 0}, {-in, out, kHeight});
   append_box(mesh, {in, -out, 0}, {out, out, kHeight});
   append_box(mesh, {-in, -out, 0}, {in, -in, kHeight});
   append_box(mesh, {-in, in, 0}, {in, out, kHeight});
-  return {std::make_shared<Cloud>(std::move(mesh)), 0, Eigen::Isometry3d::Identity()};
+  return {std::make_shared<Mesh>(std::move(mesh)), 0, Eigen::Isometry3d::Identity()};
 }
 
 }  // namespace posevote

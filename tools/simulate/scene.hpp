@@ -13,7 +13,7 @@ namespace posevote {
 
 /// One thing in a scene. `mesh` is in the body's own frame [m], closed unless it is the ground.
 struct Body {
-  std::shared_ptr<const Cloud> mesh;
+  std::shared_ptr<const Mesh> mesh;
   int obj_id = 0;  ///< 0: ground or clutter, which nobody looks for
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
 };

@@ -166,7 +166,7 @@ const std::map<std::string, Shape>& shapes() {
 
 /// Whether each edge joins exactly two triangles. Surface nets pinch the surface where two sheets
 /// of it pass one cell.
-bool is_manifold(const Cloud& mesh) {
+bool is_manifold(const Mesh& mesh) {
   std::vector<std::uint64_t> edges;  // directed
   for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face)
     for (int k = 0; k < 3; ++k)
@@ -175,10 +175,10 @@ bool is_manifold(const Cloud& mesh) {
   return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
-Cloud mesh_of(const Field& field, int cells) {
+Mesh mesh_of(const Field& field, int cells) {
   constexpr int kTries = 15;  // a slightly finer grid cuts the sheets elsewhere
   for (int i = 0; i < kTries; ++i) {
-    Cloud mesh = surface_nets(field, kExtent, kExtent / (cells + i));
+    Mesh mesh = surface_nets(field, kExtent, kExtent / (cells + i));
     if (is_manifold(mesh)) return mesh;
   }
   throw std::runtime_error("has parts too thin to mesh; choose another seed");
@@ -203,10 +203,10 @@ const std::vector<std::string>& shape_names() {
   return names;
 }
 
-Cloud make_shape(const std::string& shape, std::uint64_t seed, double size) {
+Mesh make_shape(const std::string& shape, std::uint64_t seed, double size) {
   const Shape& kind = find_shape(shape);
   Random random(seed);
-  Cloud mesh = mesh_of(kind.field(random), kind.cells);
+  Mesh mesh = mesh_of(kind.field(random), kind.cells);
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   mesh.points.rowwise() -= 0.5F * (low + high);

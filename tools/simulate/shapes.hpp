@@ -19,6 +19,6 @@ bool is_round_shape(const std::string& shape);
 
 /// A mesh of about 5 000 to 50 000 vertices whose bounding box is centred at the origin and `size`
 /// [m] long on its longest side. Throws std::invalid_argument for an unknown shape.
-Cloud make_shape(const std::string& shape, std::uint64_t seed, double size);
+Mesh make_shape(const std::string& shape, std::uint64_t seed, double size);
 
 }  // namespace posevote

@@ -28,24 +28,24 @@ constexpr double kTargetHeight = 0.05;  // the sensor looks at what lies on the 
 constexpr int kArrangements = 100;      // tried for one image, before giving up
 constexpr std::size_t kClutter = 12;    // different bodies that are no models
 
-using Mesh = std::shared_ptr<const Cloud>;
+using SharedMesh = std::shared_ptr<const Mesh>;
 
 /// What all images share.
 struct Studio {
   Spec spec;
-  std::vector<Mesh> models, clutter;
+  std::vector<SharedMesh> models, clutter;
 };
 
-Mesh make_mesh(const std::string& shape, std::uint64_t seed, double size) {
-  return std::make_shared<const Cloud>(make_shape(shape, seed, size));
+SharedMesh make_mesh(const std::string& shape, std::uint64_t seed, double size) {
+  return std::make_shared<const Mesh>(make_shape(shape, seed, size));
 }
 
 /// Bodies of kinds that no model is of, as long as there are such kinds.
-std::vector<Mesh> make_clutter(const Spec& spec) {
+std::vector<SharedMesh> make_clutter(const Spec& spec) {
   std::vector<std::string> kinds = shape_names();
   for (const ModelSpec& model : spec.models) std::erase(kinds, model.shape);
   if (kinds.empty()) kinds = shape_names();
-  std::vector<Mesh> clutter(kClutter);
+  std::vector<SharedMesh> clutter(kClutter);
   graph::parallel_for(kClutter, 1, [&](std::size_t i) {
     Random random(static_cast<std::uint64_t>(spec.seed), ~std::uint64_t{i});  // no image's stream
     clutter[i] = make_mesh(kinds[i % kinds.size()], random.next(), random.uniform(0.08, 0.2));
@@ -85,7 +85,7 @@ struct Image {
   std::vector<Body> bodies;
   Sensor sensor;
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
-  Scan scan;
+  SimulatedScan scan;
 };
 
 /// Whether as much is seen of each object as the scene asks for.

@@ -116,7 +116,7 @@ FaceMatrix connect(const Grid& grid, const std::vector<std::uint32_t>& vertex_of
 
 }  // namespace
 
-Cloud surface_nets(const Field& field, double extent, double cell) {
+Mesh surface_nets(const Field& field, double extent, double cell) {
   const Grid grid = sample(field, extent, cell);
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::uint32_t> vertex_of(grid.values.size());
@@ -126,7 +126,7 @@ Cloud surface_nets(const Field& field, double extent, double cell) {
     vertex_of[grid.at(i)] = static_cast<std::uint32_t>(vertices.size());
     vertices.push_back(mean);
   });
-  Cloud mesh;
+  Mesh mesh;
   mesh.points.resize(static_cast<Eigen::Index>(vertices.size()), 3);
   graph::parallel_for(vertices.size(), 256, [&](std::size_t k) {
     mesh.points.row(static_cast<Eigen::Index>(k)) =

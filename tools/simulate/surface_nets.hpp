@@ -15,6 +15,6 @@ using Field = std::function<double(const Eigen::Vector3d&)>;
 /// cell that the surface passes, then moved onto the surface along the gradient. The field must be
 /// positive within two cells of the cube's border. Details smaller than two cells are lost.
 /// O((extent / cell)^3).
-Cloud surface_nets(const Field& field, double extent, double cell);
+Mesh surface_nets(const Field& field, double extent, double cell);
 
 }  // namespace posevote

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever happened to a file on its way: a reader returns a valid cloud or throws a
+// Whatever happened to a file on its way: a reader returns a valid scan or throws a
 // std::runtime_error, and asks for no more memory than the file's size justifies.
 #include <sys/resource.h>
 
@@ -45,10 +45,8 @@ struct Sample {
 
 std::function<void(std::string_view)> mesh_check(const std::string& ending) {
   return [ending](std::string_view bytes) {
-    formats::RawMesh mesh = read_mesh(ending, bytes);
-    formats::mend_concave(mesh);
-    const Cloud cloud = formats::to_cloud(mesh, 0.001);
-    REQUIRE(is_valid(cloud));
+    const Scan scan = formats::to_scan(read_mesh(ending, bytes), 0.001);
+    REQUIRE(is_valid(scan));
   };
 }
 

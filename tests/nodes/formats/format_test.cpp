@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/formats/format.hpp"
 
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
 using namespace posevote;
@@ -32,7 +32,7 @@ TEST_CASE("a registered format is found, listed and read by each of its endings"
     CHECK(formats::has_ending(name, formats::Wanted::kMeshes));
     CHECK_FALSE(formats::has_ending(name, formats::Wanted::kDepthImages));
     CHECK(formats::has_ending(name, formats::Wanted::kAny));
-    CHECK(formats::read_cloud(dir.write(name, "any"), 1).points.row(0) ==
+    CHECK(formats::read_scan(dir.write(name, "any"), 1).points.row(0) ==
           Eigen::RowVector3f(1, 2, 3));
   }
   CHECK_THAT(formats::list_endings(formats::Wanted::kMeshes),
@@ -48,7 +48,7 @@ TEST_CASE("two formats cannot claim one ending", "[formats]") {
 TEST_CASE("a depth image is no cloud, and a cloud no depth image", "[formats]") {
   const TempDir dir;
   CHECK(formats::find_format("a.png")->holds_depth());
-  CHECK_THAT(error_of([&] { formats::read_cloud(dir.write("a.png", depth_png(1, 1, {7})), 1); }),
+  CHECK_THAT(error_of([&] { formats::read_scan(dir.write("a.png", depth_png(1, 1, {7})), 1); }),
              has("has the ending '.png', expected .obj, "));
   CHECK_THAT(error_of([&] { formats::read_depth_image(dir.write("a.obj", "v 1 2 3\n")); }),
              has("has the ending '.obj', expected .png"));

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "nodes/formats/raw_mesh.hpp"
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
 using namespace posevote;
@@ -224,12 +224,12 @@ TEST_CASE("PLY: the laser scan rs1", "[load][ply]") {
     WARN("skipped: no " << scene);
     return;
   }
-  const Cloud cloud = formats::read_cloud(scene, 0.001);
-  CHECK(is_valid(cloud));
-  CHECK(cloud.points.rows() == 114373);
-  CHECK(cloud.normals.rows() == 114373);
-  CHECK(cloud.faces.rows() == 221803);
-  CHECK(cloud.points(0, 2) == Approx(-0.58831));
+  const Scan scan = formats::read_scan(scene, 0.001);
+  CHECK(is_valid(scan));
+  CHECK(scan.points.rows() == 114373);
+  CHECK(scan.normals.rows() == 114373);
+  CHECK(scan.faces.rows() == 221803);
+  CHECK(scan.points(0, 2) == Approx(-0.58831));
   // The sensor stands at the origin, and normals point to it.
-  CHECK((cloud.points.cwiseProduct(cloud.normals).rowwise().sum().array() > 0).count() == 0);
+  CHECK((scan.points.cwiseProduct(scan.normals).rowwise().sum().array() > 0).count() == 0);
 }

@@ -127,16 +127,16 @@ inline std::string depth_png(std::uint32_t width, std::uint32_t height,
   return png_bytes(width, height, 16, 1, samples, interlace);
 }
 
-/// What every loaded cloud must be, however the file looked.
-inline bool is_valid(const Cloud& cloud) {
-  const Eigen::Index n = cloud.points.rows();
-  if (n == 0 || !cloud.points.allFinite() || !cloud.viewpoint.allFinite()) return false;
-  if (cloud.normals.rows() != 0 && cloud.normals.rows() != n) return false;
-  for (Eigen::Index i = 0; i < cloud.normals.rows(); ++i) {
-    const float length = cloud.normals.row(i).norm();
+/// What every loaded scan must be, however the file looked.
+inline bool is_valid(const Scan& scan) {
+  const Eigen::Index n = scan.points.rows();
+  if (n == 0 || !scan.points.allFinite() || !scan.view.origin.allFinite()) return false;
+  if (scan.normals.rows() != 0 && scan.normals.rows() != n) return false;
+  for (Eigen::Index i = 0; i < scan.normals.rows(); ++i) {
+    const float length = scan.normals.row(i).norm();
     if (length != 0.0F && !(std::abs(length - 1) < 1e-5F)) return false;
   }
-  return cloud.faces.rows() == 0 || cloud.faces.maxCoeff() < static_cast<std::uint32_t>(n);
+  return scan.faces.rows() == 0 || scan.faces.maxCoeff() < static_cast<std::uint32_t>(n);
 }
 
 }  // namespace posevote::test

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -14,15 +14,15 @@ using posevote::test::TemporaryFolder;
 
 namespace {
 
-Cloud triangle() {
-  Cloud cloud;
-  cloud.points.resize(3, 3);
-  cloud.points << 0.1F, 0.2F, 0.3F, 1, 0, 0, 0, -1, 0;
-  cloud.normals.resize(3, 3);
-  cloud.normals << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  cloud.faces.resize(1, 3);
-  cloud.faces << 0, 2, 1;
-  return cloud;
+Mesh triangle() {
+  Mesh mesh;
+  mesh.points.resize(3, 3);
+  mesh.points << 0.1F, 0.2F, 0.3F, 1, 0, 0, 0, -1, 0;
+  mesh.normals.resize(3, 3);
+  mesh.normals << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  mesh.faces.resize(1, 3);
+  mesh.faces << 0, 2, 1;
+  return mesh;
 }
 
 bool is_empty(const TemporaryFolder& folder) { return std::filesystem::is_empty(folder.path()); }
@@ -31,28 +31,28 @@ bool is_empty(const TemporaryFolder& folder) { return std::filesystem::is_empty(
 
 TEST_CASE("a written PLY is read back: points, normals, faces", "[write]") {
   const TemporaryFolder folder;
-  const Cloud cloud = triangle();
-  formats::write_ply(folder / "a.ply", cloud, 1000);
-  const Cloud read = formats::read_cloud(folder / "a.ply", 0.001);
-  CHECK(read.points.isApprox(cloud.points, 1e-6F));
-  CHECK(read.normals == cloud.normals);
-  CHECK(read.faces == cloud.faces);
+  const Mesh mesh = triangle();
+  formats::write_ply(folder / "a.ply", mesh, 1000);
+  const Mesh read = formats::read_mesh(folder / "a.ply", 0.001);
+  CHECK(read.points.isApprox(mesh.points, 1e-6F));
+  CHECK(read.normals == mesh.normals);
+  CHECK(read.faces == mesh.faces);
   CHECK(read_text(folder / "a.ply").find("\nproperty uchar red\n") == std::string::npos);
 
-  Cloud bare;
-  bare.points = cloud.points;
+  Mesh bare;
+  bare.points = mesh.points;
   formats::write_ply(folder / "a.ply", bare);  // over the first
-  const Cloud second = formats::read_cloud(folder / "a.ply", 1);
-  CHECK(second.points == cloud.points);
+  const Mesh second = formats::read_mesh(folder / "a.ply", 1);
+  CHECK(second.points == mesh.points);
   CHECK(second.normals.rows() == 0);
   CHECK(second.faces.rows() == 0);
 }
 
 TEST_CASE("the bytes of a vertex are position, normal, colour", "[write]") {
   const TemporaryFolder folder;
-  Cloud cloud = triangle();
-  cloud.faces.resize(0, 3);
-  formats::write_ply(folder / "a.ply", cloud, 1, {{1, 2, 3}, {4, 5, 6}, {7, 8, 250}});
+  Mesh mesh = triangle();
+  mesh.faces.resize(0, 3);
+  formats::write_ply(folder / "a.ply", mesh, 1, {{1, 2, 3}, {4, 5, 6}, {7, 8, 250}});
   const std::string text = read_text(folder / "a.ply");
   const std::size_t body = text.find("end_header\n") + 11;
   REQUIRE(text.size() == body + 3 * (6 * 4 + 3));
@@ -62,20 +62,21 @@ TEST_CASE("the bytes of a vertex are position, normal, colour", "[write]") {
 
 TEST_CASE("counts that contradict each other are not written", "[write]") {
   const TemporaryFolder folder;
-  Cloud cloud = triangle();
-  CHECK_THROWS_AS(formats::write_ply(folder / "a.ply", cloud, 1, {{1, 2, 3}}),
+  Mesh mesh = triangle();
+  CHECK_THROWS_AS(formats::write_ply(folder / "a.ply", mesh, 1, {{1, 2, 3}}),
                   std::invalid_argument);
-  cloud.faces(0, 1) = 3;
-  CHECK_THROWS_AS(formats::write_ply(folder / "a.ply", cloud), std::invalid_argument);
-  cloud = triangle();
-  cloud.normals.conservativeResize(2, 3);
-  CHECK_THROWS_AS(formats::write_ply(folder / "a.ply", cloud), std::invalid_argument);
+  mesh.faces(0, 1) = 3;
+  CHECK_THROWS_AS(formats::write_ply(folder / "a.ply", mesh), std::invalid_argument);
+  mesh = triangle();
+  mesh.normals.conservativeResize(2, 3);
+  CHECK_THROWS_AS(formats::write_ply(folder / "a.ply", mesh), std::invalid_argument);
   CHECK(is_empty(folder));
 }
 
 TEST_CASE("a full disk leaves no half PLY and keeps the old one", "[write]") {
   const TemporaryFolder folder;
-  const Cloud big = test::make_patch(100, 0.01F, 1);
+  Mesh big;
+  big.points = test::make_patch(100, 0.01F, 1).points;
   {
     const test::FullDisk full(5000);
     CHECK_THROWS_WITH(formats::write_ply(folder / "a.ply", big),

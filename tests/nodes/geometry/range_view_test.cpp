@@ -42,7 +42,7 @@ TEST_CASE("a view moves with its viewpoint and turns with the scan", "[segment]"
   scan.normals.resize(0, 3);
   const Eigen::Isometry3d T = pose(3, -2, 1, 2.2);
   test::detail::append(scan, wall_at(1.0F, 0.2F), T);
-  scan.viewpoint = T.translation().cast<float>();
+  scan.view.origin = T.translation().cast<float>();
   const geometry::RangeView view(scan, kResolution);
   REQUIRE(view.usable());
   const Eigen::Vector3f point = (T * Eigen::Vector3d(0.05, -0.1, 0.7)).cast<float>();

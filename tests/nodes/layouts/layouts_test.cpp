@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kShift = "1 0 0 10\n0 1 0 20\n0 0 1 900\n0 0 0 1\n";
 
-void write_box(const fs::path& file) {
-  Cloud bar;
+void write_box(const std::filesystem::path& file) {
+  Mesh bar;
   bar.points.resize(8, 3);
   for (int i = 0; i < 8; ++i)
     bar.points.row(i) << (i & 1 ? 30.F : 0.F), (i & 2 ? 40.F : 0.F), (i & 4 ? 120.F : 0.F);

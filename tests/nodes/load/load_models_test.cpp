@@ -14,11 +14,11 @@ TEST_CASE("load_models: one cloud a file, in order", "[load]") {
     files.push_back(
         {dir.write(name + ".obj", "v " + std::to_string(i) + " 0 0\nv 0 1 0\n"), i + 1, name});
   }
-  const auto models = run_node<PerObject<Cloud>>("load_models", {{"unit", "mm"}}, files);
+  const auto models = run_node<PerObject<Mesh>>("load_models", {{"unit", "mm"}}, files);
   REQUIRE(models.size() == 20);
   for (std::size_t i = 0; i < 20; ++i)
     CHECK(models[i].points(0, 0) == Approx(static_cast<double>(i) / 1000));
-  const auto metres = run_node<PerObject<Cloud>>("load_models", {}, files);
+  const auto metres = run_node<PerObject<Mesh>>("load_models", {}, files);
   CHECK(metres[7].points(0, 0) == 7);
 }
 
@@ -28,7 +28,7 @@ TEST_CASE("load_models: errors name every file that could not be read", "[load]"
                          {dir.write("b.obj", "v 0 0 0\n"), 2, "b"},
                          {dir.write("c.obj", "v 0 0\n"), 3, "c"},
                          {dir.write("d.obj", "v 1 1 0\nv 0 0 0\n"), 4, "d"}};
-  const auto load = [](const ModelFiles& f) { run_node<PerObject<Cloud>>("load_models", {}, f); };
+  const auto load = [](const ModelFiles& f) { run_node<PerObject<Mesh>>("load_models", {}, f); };
   CHECK(error_of([&] { load(files); }) ==
         files[0].path.string() + ": there is no such file; " + files[1].path.string() +
             ": has 1 points and no extent: expected a surface; " + files[2].path.string() +

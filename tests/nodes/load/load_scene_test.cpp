@@ -10,30 +10,30 @@ TEST_CASE("load_scene: point files in mm and m", "[load]") {
   const TempDir dir;
   SceneFile scene;
   scene.path = dir.write("scan.obj", "v 100 200 300\n");
-  CHECK(run_node<Cloud>("load_scene", {}, scene).points(0, 2) == 300);
-  CHECK(run_node<Cloud>("load_scene", {{"unit", "mm"}}, scene).points(0, 2) == Approx(0.3));
-  CHECK_THROWS_AS(run_node<Cloud>("load_scene", {{"unit", "inch"}}, scene), std::invalid_argument);
+  CHECK(run_node<Scan>("load_scene", {}, scene).points(0, 2) == 300);
+  CHECK(run_node<Scan>("load_scene", {{"unit", "mm"}}, scene).points(0, 2) == Approx(0.3));
+  CHECK_THROWS_AS(run_node<Scan>("load_scene", {{"unit", "inch"}}, scene), std::invalid_argument);
 }
 
 TEST_CASE("load_scene: the data set's camera goes before the parameters", "[load]") {
   const TempDir dir;
   SceneFile scene;
   scene.path = dir.write("depth.PNG", depth_png(2, 1, {0, 1000}));
-  CHECK_THAT(error_of([&] { run_node<Cloud>("load_scene", {}, scene); }), has("load_scene.fx"));
+  CHECK_THAT(error_of([&] { run_node<Scan>("load_scene", {}, scene); }), has("load_scene.fx"));
   const std::map<std::string, std::string> params{{"fx", "10"},         {"fy", "10"},
                                                   {"cx", "0.5"},        {"cy", "0.5"},
                                                   {"depth_scale", "2"}, {"unit", "mm"}};
-  const Cloud by_params = run_node<Cloud>("load_scene", params, scene);
+  const Scan by_params = run_node<Scan>("load_scene", params, scene);
   CHECK(by_params.points.row(0).isApprox(Eigen::RowVector3f(0.1F, -0.1F, 2)));
   scene.camera = Camera{10, 10, 0.5, 0.5, 1};
-  const Cloud by_camera = run_node<Cloud>("load_scene", params, scene);
+  const Scan by_camera = run_node<Scan>("load_scene", params, scene);
   CHECK(by_camera.points.row(0).isApprox(Eigen::RowVector3f(0.05F, -0.05F, 1)));
   CHECK_THAT(error_of([&] {
-               run_node<Cloud>("load_scene", {{"max_depth", "0.5"}}, scene);
+               run_node<Scan>("load_scene", {{"max_depth", "0.5"}}, scene);
              }),
              has("none of the image's 2 pixels"));
   CHECK_THAT(error_of([&] {
-               run_node<Cloud>("load_scene", {{"min_depth", "1.5"}}, scene);
+               run_node<Scan>("load_scene", {{"min_depth", "1.5"}}, scene);
              }),
              has("none of the image's 2 pixels"));
 }
@@ -56,6 +56,6 @@ TEST_CASE("load_scene: a missing file", "[load]") {
     SceneFile scene;
     scene.path = dir.path(name);
     scene.camera = Camera{10, 10, 0.5, 0.5, 1};
-    CHECK(error_of([&] { run_node<Cloud>("load_scene", {}, scene); }) == "there is no such file");
+    CHECK(error_of([&] { run_node<Scan>("load_scene", {}, scene); }) == "there is no such file");
   }
 }

@@ -45,19 +45,18 @@ TEST_CASE("Depth image: pixels become points right, down and forward", "[load][d
   for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
     const auto path =
         dir.write("depth.png", depth_png(4, 2, {0, 10000, 0, 20000, 5000, 0, 0, 258}, interlace));
-    const Cloud cloud = load::read_depth(path, kCamera, {});
-    REQUIRE(cloud.points.rows() == 4);
-    CHECK(cloud.points.row(0).isApprox(
+    const Scan scan = load::read_depth(path, kCamera, {});
+    REQUIRE(scan.points.rows() == 4);
+    CHECK(scan.points.row(0).isApprox(
         Eigen::RowVector3f(-0.5F / 500, -0.5F / 400, 1)));  // u = 1, v = 0, 10000 x 0.1 mm
-    CHECK(cloud.points.row(1).isApprox(Eigen::RowVector3f(2 * 1.5F / 500, 2 * -0.5F / 400, 2)));
-    CHECK(cloud.points.row(2).isApprox(
+    CHECK(scan.points.row(1).isApprox(Eigen::RowVector3f(2 * 1.5F / 500, 2 * -0.5F / 400, 2)));
+    CHECK(scan.points.row(2).isApprox(
         Eigen::RowVector3f(0.5F * -1.5F / 500, 0.5F * 0.5F / 400, 0.5F)));
-    CHECK(cloud.points(3, 2) == Approx(0.0258));  // 258 = 0x0102: bytes in the right order
-    CHECK(cloud.viewpoint.isZero());
-    CHECK(cloud.image.min().isApprox(Eigen::Vector2f(-2.0F / 500, -1.0F / 400)));
-    CHECK(cloud.image.max().isApprox(Eigen::Vector2f(2.0F / 500, 1.0F / 400)));
-    CHECK(cloud.dropped == 0);
-    CHECK(is_valid(cloud));
+    CHECK(scan.points(3, 2) == Approx(0.0258));  // 258 = 0x0102: bytes in the right order
+    CHECK(scan.view.origin.isZero());
+    CHECK(scan.view.image.min().isApprox(Eigen::Vector2f(-2.0F / 500, -1.0F / 400)));
+    CHECK(scan.view.image.max().isApprox(Eigen::Vector2f(2.0F / 500, 1.0F / 400)));
+    CHECK(is_valid(scan));
   }
 }
 

@@ -28,9 +28,6 @@ inline Cloud box_cloud(const Eigen::Vector3f& low, const Eigen::Vector3f& high) 
   cloud.points.row(1) = high.transpose();
   cloud.points.row(2) = (0.3F * low + 0.7F * high).transpose();
   cloud.normals = PointMatrix::Ones(3, 3).rowwise().normalized();
-  cloud.faces.resize(1, 3);
-  cloud.faces << 0, 1, 2;
-  cloud.dropped = 4;
   return cloud;
 }
 
@@ -39,7 +36,8 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
                                  const std::map<std::string, std::string>& params = {},
                                  std::vector<int> obj_ids = {}) {
   ModelFiles files;
-  PerObject<Cloud> meshes, clouds;
+  PerObject<Mesh> meshes;
+  PerObject<Cloud> clouds;
   PerObject<FeatureSet> features;
   PerObject<NearSymmetries> near_symmetries;
   PerObject<Outline> outlines;
@@ -47,7 +45,7 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
     const int id = obj_ids.empty() ? static_cast<int>(i) + 1 : obj_ids[i];
     files.push_back({"m" + std::to_string(id) + ".ply", id, "m" + std::to_string(id)});
     const Cloud cloud = box_cloud({0, 0, 0}, {1, static_cast<float>(id), 2});
-    meshes.slots.push_back(std::make_shared<const Cloud>(cloud));
+    meshes.slots.push_back(std::make_shared<const Mesh>(Mesh{cloud.points, {}, {}}));
     clouds.slots.push_back(std::make_shared<const Cloud>(cloud));
     features.slots.push_back(std::make_shared<const FeatureSet>(features_at(values[i])));
     near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(NearSymmetries{

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "nodes/data/features.hpp"
+#include "nodes/geometry/select_rows.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -20,8 +21,7 @@ Cloud sphere(int count = 20000) {
   Cloud cloud;
   cloud.points = test::sphere(count, 0.05F);
   cloud.normals = test::sphere(count, 1);
-  cloud.viewpoint = {1, 2, 3};
-  cloud.dropped = 4;
+  cloud.view.origin = {1, 2, 3};
   return cloud;
 }
 
@@ -49,8 +49,7 @@ TEST_CASE("downsample_voxels thins a surface to its resolution", "[prepare]") {
   away.rowwise().normalize();
   CHECK(test::mean_angle(away, out.normals) < 1.5);
   CHECK((out.normals.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-5F);
-  CHECK(out.viewpoint == Eigen::Vector3f(1, 2, 3));
-  CHECK(out.dropped == 4);
+  CHECK(out.view.origin == Eigen::Vector3f(1, 2, 3));
   CHECK(downsampled(sphere(), 1e-4F).points.rows() == 20000);  // coarser than the voxels: all stay
 }
 
@@ -59,11 +58,8 @@ TEST_CASE("downsample_voxels does not mind the order of the input", "[prepare]")
   cloud.points.bottomRows(9000) = cloud.points.topRows(9000);  // two-sided: voxels that cancel
   cloud.normals.bottomRows(9000) = -cloud.normals.topRows(9000);
   const std::vector<Eigen::Index> order = test::shuffled(cloud.points.rows());
-  Cloud mixed = cloud;
-  mixed.points = cloud.points(order, Eigen::all);
-  mixed.normals = cloud.normals(order, Eigen::all);
   const Cloud a = downsampled(cloud, 0.004F);
-  const Cloud b = downsampled(mixed, 0.004F);
+  const Cloud b = downsampled(geometry::select_rows(cloud, order), 0.004F);
   REQUIRE(a.points.rows() == b.points.rows());
   CHECK((a.points - b.points).cwiseAbs().maxCoeff() < 1e-6F);
   CHECK((a.normals - b.normals).cwiseAbs().maxCoeff() < 1e-5F);
@@ -85,14 +81,16 @@ TEST_CASE("downsample_voxels keeps both sides of a thin wall", "[prepare]") {
   for (const int i : {0, 1}) CHECK(out.points(i, 2) * out.normals(i, 2) > 1e-4F);
 }
 
-TEST_CASE("downsample_voxels takes huge extents and drops what is no point", "[prepare]") {
+TEST_CASE("downsample_voxels takes huge extents and leaves out what is no point", "[prepare]") {
   Cloud cloud = sphere();
   cloud.points.row(0) << 1e5F, -1e5F, 1e5F;
   cloud.points(1, 2) = std::numeric_limits<float>::quiet_NaN();
   cloud.normals(2, 0) = std::numeric_limits<float>::infinity();
   cloud.normals.row(3).setZero();
   const Cloud out = downsampled(cloud, 0.0005F);
-  CHECK(out.dropped == 7);
+  std::vector<Eigen::Index> usable{0};
+  for (Eigen::Index i = 4; i < cloud.points.rows(); ++i) usable.push_back(i);
+  CHECK(out.points == downsampled(geometry::select_rows(cloud, usable), 0.0005F).points);
   CHECK(out.points.allFinite());
   CHECK(out.points.maxCoeff() == 1e5F);
   cloud.points(0, 0) = 1e30F;

@@ -20,8 +20,8 @@ constexpr float kFocal = 500;
 constexpr float kRadius = 0.009F;
 
 /// What a camera sees of z = depth(x / z, y / z); 0: nothing.
-Cloud image_of(const std::function<float(float, float)>& depth) {
-  Cloud scan;
+Scan image_of(const std::function<float(float, float)>& depth) {
+  Scan scan;
   std::vector<Eigen::Vector3f> points;
   const Eigen::Vector2f half(0.5F * kColumns / kFocal, 0.5F * kRows / kFocal);
   for (int v = 0; v < kRows; ++v)
@@ -33,8 +33,8 @@ Cloud image_of(const std::function<float(float, float)>& depth) {
   scan.points.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
     scan.points.row(static_cast<Eigen::Index>(i)) = points[i];
-  scan.image = {Eigen::Vector2f(-half), half};
-  scan.pixels = {kColumns, kRows};
+  scan.view.image = {Eigen::Vector2f(-half), half};
+  scan.view.pixels = {kColumns, kRows};
   return scan;
 }
 
@@ -46,7 +46,7 @@ float ball_and_wall(float x, float y) {
   return squared > 0 ? along - std::sqrt(squared / ray.squaredNorm()) : 0.9F;
 }
 
-PointMatrix normals_of(const Cloud& scan) {
+PointMatrix normals_of(const Scan& scan) {
   const auto normals = prepare::image_normals(scan, kRadius, 6, 5);
   REQUIRE(normals);
   REQUIRE(normals->rows() == scan.points.rows());
@@ -56,7 +56,7 @@ PointMatrix normals_of(const Cloud& scan) {
 }  // namespace
 
 TEST_CASE("image_normals finds those of a ball and of the wall behind it", "[prepare]") {
-  const Cloud scan = image_of(ball_and_wall);
+  const Scan scan = image_of(ball_and_wall);
   const PointMatrix normals = normals_of(scan);
   std::vector<float> ball, wall;
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
@@ -74,7 +74,7 @@ TEST_CASE("image_normals finds those of a ball and of the wall behind it", "[pre
 }
 
 TEST_CASE("image_normals agrees with planes by search, noise and holes included", "[prepare]") {
-  Cloud scan = image_of([](float x, float y) {
+  Scan scan = image_of([](float x, float y) {
     const auto cell = static_cast<int>(1000 * (x + 1)) * 7 + static_cast<int>(1000 * (y + 1)) * 13;
     return cell % 5 == 0 ? 0 : ball_and_wall(x, y);
   });
@@ -94,7 +94,7 @@ TEST_CASE("image_normals mixes none into what is off the ground", "[prepare]") {
     const auto u = static_cast<int>(std::lround(x * kFocal + 0.5F * kColumns - 0.5F));
     return u >= 81 && u <= 83;
   };
-  const Cloud wall =
+  const Scan wall =
       image_of([&](float x, float y) { return is_ridge(x) ? 0.65F + 0.3F * y : 0.7F; });
   const PointMatrix of_wall = normals_of(wall);
   for (Eigen::Index i = 0; i < wall.points.rows(); ++i)
@@ -102,33 +102,33 @@ TEST_CASE("image_normals mixes none into what is off the ground", "[prepare]") {
 }
 
 TEST_CASE("image_normals does not mind the order of the points", "[prepare]") {
-  const Cloud scan = image_of(ball_and_wall);
+  const Scan scan = image_of(ball_and_wall);
   const std::vector<Eigen::Index> order = test::shuffled(scan.points.rows());
-  Cloud mixed = scan;
+  Scan mixed = scan;
   mixed.points = scan.points(order, Eigen::all);
   const PointMatrix expected = normals_of(scan)(order, Eigen::all);
   CHECK((normals_of(mixed).array() == expected.array()).all());
 }
 
 TEST_CASE("image_normals leaves to others what is no image, or too fine", "[prepare]") {
-  const Cloud scan = image_of(ball_and_wall);
-  const auto refused = [](Cloud other, float radius = kRadius) {
+  const Scan scan = image_of(ball_and_wall);
+  const auto refused = [](Scan other, float radius = kRadius) {
     return !prepare::image_normals(other, radius, 6, 5);
   };
   CHECK(!refused(scan));
   CHECK(refused(scan, 0.1F));  // 70 pixels
-  Cloud other = scan;
-  other.pixels.setZero();
+  Scan other = scan;
+  other.view.pixels.setZero();
   CHECK(refused(other));
   other = scan;
-  other.image.setEmpty();
+  other.view.image.setEmpty();
   CHECK(refused(other));
   other = scan;
   other.points.row(3) << 5, 0, 1;  // beside the image
   CHECK(refused(other));
   other.points.row(3) = 1.01F * scan.points.row(4);  // in one pixel with another
   CHECK(refused(other));
-  CHECK(refused(Cloud{}));
+  CHECK(refused(Scan{}));
 }
 
 TEST_CASE("image_normals leaves near ground before a far one to others", "[prepare]") {
@@ -155,7 +155,7 @@ TEST_CASE("samples follow no columns", "[prepare]") {
 
 TEST_CASE("image_normals takes points that are not finite, and those right before the camera",
           "[prepare]") {
-  Cloud scan = image_of(ball_and_wall);
+  Scan scan = image_of(ball_and_wall);
   scan.points.row(5).setConstant(std::numeric_limits<float>::quiet_NaN());
   scan.points.row(9) *= 0.004F;
   const PointMatrix normals = normals_of(scan);

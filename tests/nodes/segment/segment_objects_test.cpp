@@ -223,7 +223,7 @@ TEST_CASE("a turned scan gives turned poses", "[segment]") {
   turned.scan.points.resize(0, 3);
   turned.scan.normals.resize(0, 3);
   test::detail::append(turned.scan, inputs.scan, T);
-  turned.scan.viewpoint = T.translation().cast<float>();
+  turned.scan.view.origin = T.translation().cast<float>();
   turned.features = features_of(turned.scan);
   for (const Correspondences& m : matches) add_object(turned, m);
   const std::vector<Detection> found = segment(inputs), again = segment(turned);

@@ -31,9 +31,11 @@ TEST_CASE("a library holds the models by obj_id, with centre and diagonal of the
 }
 
 TEST_CASE("the centre is that of the mesh, not of the sampled cloud", "[match]") {
-  PerObject<Cloud> mesh, cloud;
+  PerObject<Mesh> mesh;
+  PerObject<Cloud> cloud;
   PerObject<FeatureSet> features;
-  mesh.slots = {std::make_shared<const Cloud>(box_cloud({-2, 0, 0}, {4, 1, 1}))};
+  mesh.slots = {
+      std::make_shared<const Mesh>(Mesh{box_cloud({-2, 0, 0}, {4, 1, 1}).points, {}, {}})};
   cloud.slots = {std::make_shared<const Cloud>(box_cloud({0, 0, 0}, {1, 1, 1}))};
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   const auto library = run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
@@ -49,15 +51,14 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
   CHECK_THROWS_WITH(make_library({{1}}, {{"search", "quick"}}), Catch::Contains("search"));
   CHECK_THROWS_WITH(
       run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                             PerObject<Cloud>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
+                             PerObject<Mesh>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
                              PerObject<NearSymmetries>{}, PerObject<Outline>{}, Scale{1}),
       Catch::Contains("1 model files, but 0 meshes"));
-  PerObject<Cloud> empty;
-  empty.slots = {std::make_shared<const Cloud>()};
   PerObject<FeatureSet> features;
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   CHECK_THROWS_WITH(
-      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}}, empty, empty,
-                             features, one_empty<NearSymmetries>(), one_empty<Outline>(), Scale{1}),
+      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
+                             one_empty<Mesh>(), one_empty<Cloud>(), features,
+                             one_empty<NearSymmetries>(), one_empty<Outline>(), Scale{1}),
       Catch::Contains("a.ply: has no points"));
 }

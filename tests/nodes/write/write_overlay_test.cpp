@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -36,7 +36,7 @@ TEST_CASE("write_overlay: the scan, then each model where it was found", "[write
       Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitX()).toRotationMatrix();
   write(folder, scan, {{turned, make_detection({-0.2, 0, 0.8})}});
   const std::filesystem::path file = folder / "overlays/shelf.ply";
-  const Cloud read = formats::read_cloud(file, 1);
+  const Mesh read = formats::read_mesh(file, 1);
   const Cloud model = make_library().models[0]->cloud;
   const Eigen::Index n = model.points.rows();
   REQUIRE(read.points.rows() == 100 + 2 * n);
@@ -64,9 +64,9 @@ TEST_CASE("write_overlay takes scans that are empty or have no normals", "[write
   Detection unknown = make_detection({0, 0, 1});
   unknown.obj_id = 9;
   write(folder, scan, {{make_detection({0, 0, 1}), unknown}});
-  CHECK(formats::read_cloud(folder / "overlays/shelf.ply", 1).points.rows() == 16 + 31 * 31);
+  CHECK(formats::read_mesh(folder / "overlays/shelf.ply", 1).points.rows() == 16 + 31 * 31);
   write(folder, Cloud(), {{make_detection({0, 0, 1})}});
-  CHECK(formats::read_cloud(folder / "overlays/shelf.ply", 1).points.rows() == 31 * 31);
+  CHECK(formats::read_mesh(folder / "overlays/shelf.ply", 1).points.rows() == 31 * 31);
 }
 
 TEST_CASE("write_overlay needs an output folder it can write to", "[write]") {

@@ -81,7 +81,7 @@ TEST_CASE("the picture is upright for cameras that look along +z and along -z", 
   for (const float look : {1.0F, -1.0F}) {
     Cloud scan = wall();
     scan.points.rightCols(2) *= look;  // y down and z forward; or y up and z back
-    const pictures::View view = pictures::view_of(scan, {}, 100);
+    const pictures::Perspective view = pictures::perspective_of(scan, {}, 100);
     const Eigen::Vector3f up_right(0.1F, -0.1F * look, look);
     const Eigen::Vector2f at = view.in_picture(view.in_view(up_right));
     CHECK(at.x() > 60);
@@ -95,7 +95,7 @@ TEST_CASE("what reaches beyond the scan is in the picture, too", "[write]") {
   const Cloud scan = wall();
   PointMatrix also(1, 3);
   also << 2, 0, 1;
-  const pictures::View view = pictures::view_of(scan, also, 100);
+  const pictures::Perspective view = pictures::perspective_of(scan, also, 100);
   const Eigen::Vector2f at = view.in_picture(view.in_view(also.row(0)));
   CHECK(at.x() > 90);
   CHECK(at.x() < 100);
@@ -103,12 +103,12 @@ TEST_CASE("what reaches beyond the scan is in the picture, too", "[write]") {
 
 TEST_CASE("outliers do not shrink the scan, nor is a slender one cut", "[write]") {
   Cloud scan = wall();
-  const float scale = pictures::view_of(scan, {}, 100).scale;
+  const float scale = pictures::perspective_of(scan, {}, 100).scale;
   scan.points.row(0) << 50, 3, 1;
-  CHECK(pictures::view_of(scan, {}, 100).scale > 0.75F * scale);
+  CHECK(pictures::perspective_of(scan, {}, 100).scale > 0.75F * scale);
   Cloud tall = make_patch(101, 0.004F, 1);
   tall.points.col(0) *= 0.1F;
-  const pictures::View view = pictures::view_of(tall, {}, 100);
+  const pictures::Perspective view = pictures::perspective_of(tall, {}, 100);
   CHECK(view.height == 150);
   for (const Eigen::Index corner : {Eigen::Index{0}, tall.points.rows() - 1}) {
     const Eigen::Vector2f at = view.in_picture(view.in_view(tall.points.row(corner)));

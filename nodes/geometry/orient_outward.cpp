@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/train/orient_outward.hpp"
+#include "nodes/geometry/orient_outward.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/voxels.hpp"
 
-namespace posevote::train {
+namespace posevote::geometry {
 namespace {
 
 /// The best edge, then the smaller indices: the order does not depend on anything else.
@@ -96,7 +96,7 @@ class Traversal {
   }
 
   const PointMatrix points_;
-  const geometry::PointGrid grid_;
+  const PointGrid grid_;
   const float radius_;
   PointMatrix& normals_;
   std::vector<char> visited_;
@@ -111,7 +111,7 @@ void orient_outward(const PointMatrix& points, float radius, PointMatrix& normal
     if (!normals.row(i).isZero()) usable.push_back(i);
   if (usable.empty()) return;
   const PointMatrix usable_points = points(usable, Eigen::all);
-  const geometry::Voxels voxels = geometry::group_by_voxel(usable_points, radius / 5);
+  const Voxels voxels = group_by_voxel(usable_points, radius / 5);
   std::vector<Eigen::Index> first;
   for (std::size_t v = 0; v < voxels.size(); ++v) first.push_back(usable[voxels[v].front()]);
 
@@ -125,4 +125,4 @@ void orient_outward(const PointMatrix& points, float radius, PointMatrix& normal
     }
 }
 
-}  // namespace posevote::train
+}  // namespace posevote::geometry

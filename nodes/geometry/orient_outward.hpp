@@ -3,7 +3,7 @@
 
 #include "nodes/data/cloud.hpp"
 
-namespace posevote::train {
+namespace posevote::geometry {
 
 /// Gives the plane normals of a closed surface's raw cloud consistent signs, outward.
 ///
@@ -18,4 +18,4 @@ namespace posevote::train {
 /// where a plain breadth-first walk got up to 39 % wrong.
 void orient_outward(const PointMatrix& points, float radius, PointMatrix& normals);
 
-}  // namespace posevote::train
+}  // namespace posevote::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 
 #include "tests/nodes/formats/support.hpp"
 
@@ -14,7 +14,7 @@ const std::string kPly =
     "property float z\nend_header\n1 2 3\n";
 
 std::string read_error(const std::filesystem::path& path) {
-  return error_of([&] { formats::read_cloud(path, 1); });
+  return error_of([&] { formats::read_scan(path, 1); });
 }
 
 }  // namespace
@@ -29,9 +29,9 @@ TEST_CASE("The extension chooses the reader", "[load]") {
                   "solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 1 2 3\n"
                   "vertex 1 2 3\nendloop\nendfacet\nendsolid\n")}) {
     INFO(path);
-    const Cloud cloud = formats::read_cloud(path, 0.001);
-    REQUIRE(cloud.points.rows() == 1);
-    CHECK(cloud.points.row(0).isApprox(Eigen::RowVector3f(0.001F, 0.002F, 0.003F)));
+    const Scan scan = formats::read_scan(path, 0.001);
+    REQUIRE(scan.points.rows() == 1);
+    CHECK(scan.points.row(0).isApprox(Eigen::RowVector3f(0.001F, 0.002F, 0.003F)));
   }
   CHECK_THAT(read_error(dir.write("a.xyz", "1 2 3\n")),
              has("has the ending '.xyz', expected .obj, .off, "));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 
 #include <stdexcept>
 #include <variant>
@@ -23,11 +23,13 @@ Read find_reader(const std::filesystem::path& path, Wanted wanted) {
 
 }  // namespace
 
-Cloud read_cloud(const std::filesystem::path& path, double metres_per_unit) {
+Scan read_scan(const std::filesystem::path& path, double metres_per_unit) {
   const FileBytes bytes = read_file(path);
-  RawMesh mesh = find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view());
-  mend_concave(mesh);
-  return to_cloud(mesh, metres_per_unit);
+  return to_scan(find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view()), metres_per_unit);
+}
+
+Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit) {
+  return read_scan(path, metres_per_unit);
 }
 
 DepthImage read_depth_image(const std::filesystem::path& path) {
