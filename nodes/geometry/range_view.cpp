@@ -26,9 +26,11 @@ float median_range(const std::vector<Eigen::Vector3f>& image_points) {
 
 }  // namespace
 
-RangeView::RangeView(const Cloud& scan, float resolution)
-    : viewpoint_(scan.view.origin), image_(scan.view.image) {
-  if (!(resolution > 0) || !find_axis(scan, resolution)) return;
+RangeView::RangeView(const Cloud& scan, float resolution, const ViewTerms& terms)
+    : viewpoint_(scan.view.origin),
+      image_(scan.view.image),
+      least_axis_cosine_(static_cast<float>(terms.least_axis_cosine)) {
+  if (!(resolution > 0) || !find_axis(scan, resolution, terms)) return;
   std::vector<Eigen::Vector3f> image_points;
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
     const Eigen::Vector3f p = to_image(scan.points.row(i).transpose());

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "nodes/formats/read_scan.hpp"
-#include "tools/evaluate/dataset.hpp"
+#include "nodes/geometry/extreme_points.hpp"
+#include "nodes/layouts/files.hpp"
+#include "nodes/layouts/layout.hpp"
 
 namespace posevote::layouts {
 namespace {

@@ -57,7 +57,7 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
 
   const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "a", "test");
   REQUIRE(truth.instances.size() == 3);
-  for (const TrueInstance& instance : truth.instances) {
+  for (const layouts::TrueInstance& instance : truth.instances) {
     const Scan scan = formats::read_scan(
         folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
     const geometry::NearestIndex surface(scan.points, 0.01F);

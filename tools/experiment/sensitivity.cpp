@@ -16,6 +16,7 @@
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/outward_normals.hpp"
+#include "nodes/geometry/rotation.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/results_csv.hpp"
 #include "tools/experiment/correspondence_quality.hpp"

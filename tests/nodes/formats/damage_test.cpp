@@ -45,7 +45,7 @@ struct Sample {
 
 std::function<void(std::string_view)> mesh_check(const std::string& ending) {
   return [ending](std::string_view bytes) {
-    const Scan scan = formats::to_scan(read_mesh(ending, bytes), 0.001);
+    const Scan scan = formats::to_scan(read_raw(ending, bytes), 0.001);
     REQUIRE(is_valid(scan));
   };
 }

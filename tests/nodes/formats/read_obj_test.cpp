@@ -11,7 +11,7 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 
 std::string obj_error(const std::string& bytes) {
-  return error_of([&] { read_mesh(".obj", bytes); });
+  return error_of([&] { read_raw(".obj", bytes); });
 }
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -20,10 +20,10 @@ const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST_CASE("OBJ: every form of a face", "[load][obj]") {
   const formats::RawMesh mesh =
-      read_mesh(".obj", "# made by a test\r\nmtllib a.mtl\r\no square\n" + kSquare +
-                            "vt 0 0\nvn 0 0 2\ns off\nusemtl red\n"
-                            "f 1 2 3 4\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1 # with normals\n"
-                            "f -4/-1/-1 -3/1/1 -1/1/-1\n");
+      read_raw(".obj", "# made by a test\r\nmtllib a.mtl\r\no square\n" + kSquare +
+                           "vt 0 0\nvn 0 0 2\ns off\nusemtl red\n"
+                           "f 1 2 3 4\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1 # with normals\n"
+                           "f -4/-1/-1 -3/1/1 -1/1/-1\n");
   CHECK(mesh.points.size() == 4);
   REQUIRE(mesh.faces.size() == 5);
   CHECK(mesh.faces[0] == Face{0, 1, 2});
@@ -35,13 +35,13 @@ TEST_CASE("OBJ: every form of a face", "[load][obj]") {
 }
 
 TEST_CASE("OBJ: negative indices count from the latest vertex at that line", "[load][obj]") {
-  const formats::RawMesh mesh = read_mesh(".obj", kSquare + "f -4 -3 -2\nv 5 5 5\nf -1 1 2\n");
+  const formats::RawMesh mesh = read_raw(".obj", kSquare + "f -4 -3 -2\nv 5 5 5\nf -1 1 2\n");
   CHECK(mesh.faces[0] == Face{0, 1, 2});
   CHECK(mesh.faces[1] == Face{4, 0, 1});
 }
 
 TEST_CASE("OBJ: a long face goes on in the next line", "[load][obj]") {
-  const formats::RawMesh mesh = read_mesh(".obj", kSquare + "f 1 2 \\\r\n  3 \\\n4\nf 1 2 3\n");
+  const formats::RawMesh mesh = read_raw(".obj", kSquare + "f 1 2 \\\r\n  3 \\\n4\nf 1 2 3\n");
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}});
   CHECK_THAT(obj_error(kSquare + "f 1 2 3 \\\n"), has("line 5: the file ends within a face"));
   CHECK_THAT(obj_error(kSquare + "f 1 2 \\\n 3\nf 1 9 2\n"),
@@ -51,21 +51,21 @@ TEST_CASE("OBJ: a long face goes on in the next line", "[load][obj]") {
 TEST_CASE("OBJ: normals", "[load][obj]") {
   SECTION("of a vertex whose corners differ: their mean") {
     const formats::RawMesh mesh =
-        read_mesh(".obj", kSquare + "vn 1 0 0\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 3//1 4//1\n");
+        read_raw(".obj", kSquare + "vn 1 0 0\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 3//1 4//1\n");
     CHECK(mesh.normals[0] == formats::Triple{1, 1, 0});
   }
   SECTION("as many as vertices, without faces: in order") {
-    const formats::RawMesh mesh = read_mesh(".obj", "v 0 0 0\nvn 1 0 0\nv 1 0 0\nvn 0 1 0\n");
+    const formats::RawMesh mesh = read_raw(".obj", "v 0 0 0\nvn 1 0 0\nv 1 0 0\nvn 0 1 0\n");
     CHECK(mesh.normals == std::vector<formats::Triple>{{1, 0, 0}, {0, 1, 0}});
   }
   SECTION("more than vertices, without faces: unusable") {
-    CHECK(read_mesh(".obj", "v 0 0 0\nvn 1 0 0\nvn 0 1 0\n").normals.empty());
+    CHECK(read_raw(".obj", "v 0 0 0\nvn 1 0 0\nvn 0 1 0\n").normals.empty());
   }
 }
 
 TEST_CASE("OBJ: a vertex may follow its face, and have a weight or a colour", "[load][obj]") {
   const formats::RawMesh mesh =
-      read_mesh(".obj", "f 1 2 3\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\n");
+      read_raw(".obj", "f 1 2 3\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\n");
   CHECK(mesh.points[1] == formats::Triple{1, 0, 0});
   CHECK(mesh.faces[0] == Face{0, 1, 2});
 }

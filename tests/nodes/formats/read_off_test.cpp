@@ -9,7 +9,7 @@ using namespace posevote::test;
 namespace {
 
 std::string off_error(const std::string& bytes) {
-  return error_of([&] { read_mesh(".off", bytes); });
+  return error_of([&] { read_raw(".off", bytes); });
 }
 
 const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
@@ -17,8 +17,8 @@ const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 }  // namespace
 
 TEST_CASE("OFF: counts, comments, polygons and face colours", "[load][off]") {
-  const formats::RawMesh mesh = read_mesh(".off", "OFF # a square\n\n# counts\n4 2 0\n" + kSquare +
-                                                      "4 0 1 2 3 255 0 0 # red\n3 0 1 3\n");
+  const formats::RawMesh mesh = read_raw(".off", "OFF # a square\n\n# counts\n4 2 0\n" + kSquare +
+                                                     "4 0 1 2 3 255 0 0 # red\n3 0 1 3\n");
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.points[2] == formats::Triple{1, 1, 0});
   REQUIRE(mesh.faces.size() == 3);
@@ -26,15 +26,15 @@ TEST_CASE("OFF: counts, comments, polygons and face colours", "[load][off]") {
 }
 
 TEST_CASE("OFF: the counts may stand in the keyword's line", "[load][off]") {
-  CHECK(read_mesh(".off", "OFF4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
-  CHECK(read_mesh(".off", "OFF 4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
+  CHECK(read_raw(".off", "OFF4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
+  CHECK(read_raw(".off", "OFF 4 1 0\n" + kSquare + "3 0 1 2\n").faces.size() == 1);
 }
 
 TEST_CASE("OFF: normals and colours", "[load][off]") {
-  const formats::RawMesh normals = read_mesh(".off", "NOFF\n1 0 0\n1 2 3 0 0 1\n");
+  const formats::RawMesh normals = read_raw(".off", "NOFF\n1 0 0\n1 2 3 0 0 1\n");
   CHECK(normals.normals == std::vector<formats::Triple>{{0, 0, 1}});
-  CHECK(read_mesh(".off", "COFF\n1 0 0\n1 2 3 255 0 0 255\n").points.size() == 1);
-  CHECK(read_mesh(".off", "CNOFF\n1 0\n1 2 3 0 1 0 255 0 0 255\n").normals[0] ==
+  CHECK(read_raw(".off", "COFF\n1 0 0\n1 2 3 255 0 0 255\n").points.size() == 1);
+  CHECK(read_raw(".off", "CNOFF\n1 0\n1 2 3 0 1 0 255 0 0 255\n").normals[0] ==
         formats::Triple{0, 1, 0});
 }
 

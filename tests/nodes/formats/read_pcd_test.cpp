@@ -15,7 +15,7 @@ using namespace posevote::test;
 namespace {
 
 std::string pcd_error(const std::string& bytes) {
-  return error_of([&] { read_mesh(".pcd", bytes); });
+  return error_of([&] { read_raw(".pcd", bytes); });
 }
 
 std::string header(const std::string& points, const std::string& data) {
@@ -89,7 +89,7 @@ TEST_CASE("PCD: what PCL writes is read, in all three encodings", "[load][pcd]")
   const PclCloud source;
   for (int kind = 0; kind < 3; ++kind) {
     const std::string bytes = write_with_pcl(source, kind);
-    const formats::RawMesh mesh = read_mesh(".pcd", bytes);
+    const formats::RawMesh mesh = read_raw(".pcd", bytes);
     CHECK(mesh.points == source.expected.points);
     CHECK(mesh.normals == source.expected.normals);
     CHECK(mesh.viewpoint == formats::Triple{0.5, -1, 2});
@@ -114,7 +114,7 @@ TEST_CASE("PCD: PCL's binary files cut off anywhere are an error", "[load][pcd]"
 }
 
 TEST_CASE("PCD: ascii with any types, fields of several values and padding", "[load][pcd]") {
-  const formats::RawMesh mesh = read_mesh(
+  const formats::RawMesh mesh = read_raw(
       ".pcd",
       "VERSION .5\nFIELDS histogram x _ y z\nSIZE 4 8 1 2 1\nTYPE F F U I U\nCOUNT 3 1 2 1 1\n"
       "POINTS 2\nDATA ascii\n9 9 9 1.5 0 0 -2 3\n9 9 9 nan 0 0 5 6\n");
@@ -135,7 +135,7 @@ double read_x(T value, char type) {
   append(bytes, value);
   append(bytes, 1.0F);
   append(bytes, 2.0F);
-  const formats::RawMesh mesh = read_mesh(".pcd", bytes);
+  const formats::RawMesh mesh = read_raw(".pcd", bytes);
   REQUIRE(mesh.points.size() == 1);
   CHECK(mesh.points[0][1] == 1);
   CHECK(mesh.points[0][2] == 2);
@@ -162,10 +162,10 @@ TEST_CASE("PCD: compressed data goes field by field, without padding fields", "[
   for (const float value : {1.0F, 2.0F, 3.0F, 4.0F}) append(plain, value);         // x, x, y, y
   for (const int value : {5, 6}) append(plain, static_cast<std::int16_t>(value));  // z, z
   const formats::RawMesh mesh =
-      read_mesh(".pcd",
-                "FIELDS x _ y z\nSIZE 4 1 4 2\nTYPE F U F I\nCOUNT 1 8 1 1\nPOINTS 2\n"
-                "DATA binary_compressed\n" +
-                    lzf_block(plain));
+      read_raw(".pcd",
+               "FIELDS x _ y z\nSIZE 4 1 4 2\nTYPE F U F I\nCOUNT 1 8 1 1\nPOINTS 2\n"
+               "DATA binary_compressed\n" +
+                   lzf_block(plain));
   CHECK(mesh.points == std::vector<formats::Triple>{{1, 3, 5}, {2, 4, 6}});
 }
 

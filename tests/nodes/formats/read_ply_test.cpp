@@ -14,7 +14,7 @@ using namespace posevote::test;
 namespace {
 
 std::string ply_error(const std::string& bytes) {
-  return error_of([&] { read_mesh(".ply", bytes); });
+  return error_of([&] { read_raw(".ply", bytes); });
 }
 
 std::string vertex_header(const std::string& count, const std::string& format = "ascii") {
@@ -75,7 +75,7 @@ struct MixedFile {
 }  // namespace
 
 TEST_CASE("PLY: ascii points, normals and polygons", "[load][ply]") {
-  const formats::RawMesh mesh = read_mesh(
+  const formats::RawMesh mesh = read_raw(
       ".ply",
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float nz\nproperty float x\n"
       "property float y\nproperty uchar red\nproperty float z\nproperty float nx\n"
@@ -96,7 +96,7 @@ TEST_CASE("PLY: ascii points, normals and polygons", "[load][ply]") {
 TEST_CASE("PLY: binary of both orders, any types, extra elements and lists", "[load][ply]") {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const MixedFile file(order);
-    const formats::RawMesh mesh = read_mesh(".ply", file.header + file.body);
+    const formats::RawMesh mesh = read_raw(".ply", file.header + file.body);
     CHECK(mesh.points == file.points);
     CHECK(mesh.normals.empty());
     REQUIRE(mesh.faces.size() == 20);
@@ -109,7 +109,7 @@ TEST_CASE("PLY: coordinates of every type", "[load][ply]") {
     std::string bytes = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty " + type +
                         " x\nproperty char y\nproperty char z\nend_header\n";
     append(bytes, value, std::endian::big);
-    const formats::RawMesh mesh = read_mesh(".ply", bytes + "ab");
+    const formats::RawMesh mesh = read_raw(".ply", bytes + "ab");
     REQUIRE(mesh.points.size() == 1);
     CHECK(mesh.points[0][2] == 'b');
     return mesh.points[0][0];
@@ -132,22 +132,22 @@ TEST_CASE("PLY: binary cut off anywhere is an error", "[load][ply]") {
   CHECK_THAT(ply_error(whole.substr(0, whole.size() - 3)), has("within face 20 of 20"));
   CHECK_THAT(ply_error(whole.substr(0, whole.size() - 3)),
              has("ends at byte " + std::to_string(whole.size() - 3)));
-  CHECK(read_mesh(".ply", whole + "\n").points.size() == 40);
+  CHECK(read_raw(".ply", whole + "\n").points.size() == 40);
   CHECK_THAT(ply_error(whole + "abc"), has("3 bytes more"));
 }
 
 TEST_CASE("PLY: faces before vertices, faces without indices, no faces", "[load][ply]") {
-  const formats::RawMesh early = read_mesh(
+  const formats::RawMesh early = read_raw(
       ".ply", "ply\nformat ascii 1.0\n" + kFaces +
                   "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                   "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n");
   CHECK(early.faces.size() == 1);
   CHECK(early.points.size() == 3);
-  const formats::RawMesh none = read_mesh(
+  const formats::RawMesh none = read_raw(
       ".ply", vertex_header("1") + "element face 1\nproperty uchar red\nend_header\n1 2 3\n255\n");
   CHECK(none.faces.empty());
   const formats::RawMesh line =
-      read_mesh(".ply", vertex_header("2") + kFaces + "end_header\n1 2 3\n4 5 6\n2 0 1\n");
+      read_raw(".ply", vertex_header("2") + kFaces + "end_header\n1 2 3\n4 5 6\n2 0 1\n");
   CHECK(line.faces.empty());
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("PLY: what is not one says so", "[load][ply]") {
 TEST_CASE("PLY: a count the file cannot hold is refused before it is believed", "[load][ply]") {
   CHECK_THAT(ply_error(vertex_header("4000000000") + "end_header\n1 2 3\n4 5 6\n"),
              has("claims 4000000000 vertices, the file has room for at most 2"));
-  CHECK(read_mesh(".ply", vertex_header("1") + "end_header\n1 2 3").points.size() ==
+  CHECK(read_raw(".ply", vertex_header("1") + "end_header\n1 2 3").points.size() ==
         1);  // just room
   const std::string three(36, '\0');
   CHECK_THAT(ply_error(vertex_header("4", "binary_little_endian") + "end_header\n" + three),

@@ -11,7 +11,7 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 
 std::string stl_error(const std::string& bytes) {
-  return error_of([&] { read_mesh(".stl", bytes); });
+  return error_of([&] { read_raw(".stl", bytes); });
 }
 
 /// Two triangles that share an edge.
@@ -42,7 +42,7 @@ TEST_CASE("STL: faces share the vertices at the same place", "[load][stl]") {
        {binary_square(), binary_square("solid but binary"), binary_square() + "\n",
         "solid a square\n" + kFacet + kOther + "endsolid a square\n",
         "solid one\n" + kFacet + "endsolid one\nsolid two\n" + kOther + "endsolid\n"}) {
-    const formats::RawMesh mesh = read_mesh(".stl", bytes);
+    const formats::RawMesh mesh = read_raw(".stl", bytes);
     CHECK(mesh.points == std::vector<formats::Triple>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     REQUIRE(mesh.faces.size() == 2);
     CHECK(mesh.faces[0] == Face{0, 1, 2});

@@ -70,7 +70,7 @@ inline std::string lzf_block(const std::string& plain) {
 }
 
 /// What the reader of an ending, ".ply", makes of a file's bytes.
-inline formats::RawMesh read_mesh(const std::string& ending, std::string_view bytes) {
+inline formats::RawMesh read_raw(const std::string& ending, std::string_view bytes) {
   const formats::Format* format = formats::find_format("file" + ending);
   if (!format) throw std::logic_error("no format has the ending " + ending);
   return std::get<formats::ReadMesh>(format->read)(bytes);

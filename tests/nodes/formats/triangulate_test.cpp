@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "nodes/formats/read_cloud.hpp"
+#include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
 using namespace posevote;
@@ -114,12 +114,12 @@ TEST_CASE("files with concave polygons, of every format that has polygons", "[fo
                            dir.write("a.off", "OFF\n6 1 0\n" + vertices + "6 1 2 3 4 5 0\n"),
                            dir.write("a.ply", ply + vertices + "6 1 2 3 4 5 0\n")}) {
     INFO(file);
-    const Cloud cloud = formats::read_cloud(file, 1);
+    const Mesh read = formats::read_mesh(file, 1);
     formats::RawMesh mesh;
     mesh.points = kL;
-    REQUIRE(cloud.faces.rows() == 4);
+    REQUIRE(read.faces.rows() == 4);
     for (Eigen::Index i = 0; i < 4; ++i)
-      mesh.faces.push_back({cloud.faces(i, 0), cloud.faces(i, 1), cloud.faces(i, 2)});
+      mesh.faces.push_back({read.faces(i, 0), read.faces(i, 1), read.faces(i, 2)});
     CHECK(area(mesh) == Approx(3));
   }
 }

@@ -82,7 +82,7 @@ TEST_CASE("beside the image nobody looked, if it is known where the image ends",
   const poses::Fit unknown = fit_of(bumpy_model(1)->cloud, scan, beside);
   CHECK(unknown.unseen == unknown.facing);
   scan.view.image = Eigen::AlignedBox2f(Eigen::Vector2f(-0.3F, -0.3F), Eigen::Vector2f(0.3F, 0.3F));
-  const segment::Fit known = fit_of(bumpy_model(1)->cloud, scan, beside);
+  const poses::Fit known = fit_of(bumpy_model(1)->cloud, scan, beside);
   CHECK(known.facing == unknown.facing);
   CHECK(known.hidden == known.facing);
 }
@@ -96,9 +96,9 @@ TEST_CASE("a body cut off by the image's border agrees with the scan", "[poses]"
   scan.points = whole.points(left, Eigen::all);
   scan.normals = whole.normals(left, Eigen::all);
   const double unknown =
-      segment::fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
+      poses::fit_quality(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
   scan.view.image = Eigen::AlignedBox2f(Eigen::Vector2f(-0.3F, -0.3F), Eigen::Vector2f(0, 0.3F));
-  const double known = segment::fit_score(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
+  const double known = poses::fit_quality(fit_of(bumpy_model(1)->cloud, scan, kBody.T_scene_model));
   CHECK(unknown < 0.75);
   CHECK(known > 0.85);
 }
