@@ -25,7 +25,9 @@ Read find_reader(const std::filesystem::path& path, Wanted wanted) {
 
 Scan read_scan(const std::filesystem::path& path, double metres_per_unit) {
   const FileBytes bytes = read_file(path);
-  return to_scan(find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view()), metres_per_unit);
+  RawMesh mesh = find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view());
+  mend_concave(mesh);
+  return to_scan(mesh, metres_per_unit);
 }
 
 Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit) {

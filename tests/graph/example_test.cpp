@@ -60,10 +60,11 @@ std::size_t count_alarms(const std::vector<double>& temperatures) {
 
 TEST_CASE("the example of graph/README.md runs, and stands there", "[docs]") {
   CHECK(count_alarms({20, 26, 24, 31}) == 2);
-  const std::string source = test::read_text(__FILE__);
+  const std::string source =
+      test::read_text(std::filesystem::path(POSEVOTE_SOURCE_DIR) / "tests/graph/example_test.cpp");
   const std::size_t begin = source.find("// [example\n") + 12;
   const std::string code = source.substr(begin, source.find("// example]") - begin);
   const std::string readme =
-      test::read_text(std::filesystem::path(__FILE__).parent_path() / "../../graph/README.md");
+      test::read_text(std::filesystem::path(POSEVOTE_SOURCE_DIR) / "graph/README.md");
   CHECK(readme.find("```cpp\n" + code + "```") != std::string::npos);
 }
