@@ -21,7 +21,7 @@ TEST_CASE("experiment ablation says what terms bring, of segmentation and traini
           set + " --out " + (folder / "out").string());
   INFO(result.output);
   REQUIRE(result.status == 0);
-  CHECK(result.output.find("image 2 of 2, 8 variations") != std::string::npos);
+  CHECK(result.output.find("image 2 of 2, 12 variations") != std::string::npos);
   CHECK(result.output.find("| all | as they are | | 2 of 2 | 0 |") != std::string::npos);
   CHECK(result.output.find("| find_near_symmetries.most | off | 0 | = | = |") != std::string::npos);
   const std::string csv = read_text(folder / "out/ablation.csv");
