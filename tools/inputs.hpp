@@ -39,8 +39,8 @@ std::vector<SceneEntry> list_dataset_scenes(const std::string& dataset, const st
 /// The model files of a data set, for list_models.
 std::vector<std::string> list_dataset_models(const std::string& dataset, const std::string& split);
 
-/// Model files in ascending order of obj_id: from `obj_NNNNNN` names, else 1.. in the order given.
-/// Throws std::invalid_argument for a missing file or two models of one obj_id.
+/// Model files in ascending order of obj_id: by the one rule of
+/// layouts::number_models. Throws std::invalid_argument for a missing file or two models of one obj_id.
 ModelFiles list_models(const std::vector<std::string>& arguments);
 
 /// Keeps entries number = I-1, I-1+N ... of "I/N"; empty text keeps all.

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "graph/schema.hpp"
 
@@ -42,7 +43,10 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
   return paths;
 }
 
-std::map<int, fs::path> number_models(const std::vector<fs::path>& files) {
+std::map<int, fs::path> number_models(std::vector<fs::path> files) {
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return std::pair(a.stem().string(), a.string()) < std::pair(b.stem().string(), b.string());
+  });
   std::map<int, fs::path> models;
   int order = 0;
   for (const fs::path& file : files) {

@@ -18,8 +18,8 @@ int whole(const nlohmann::json& entry, const std::string& name, int least = 0);
 nlohmann::json read_json(const std::filesystem::path& file);
 /// The entries of a folder, sorted by path; none where there is no such folder.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
-/// obj_id of each model file: from `obj_NNNNNN` names, else 1.. in the order given. Throws
-/// std::runtime_error for two models of one obj_id.
-std::map<int, std::filesystem::path> number_models(const std::vector<std::filesystem::path>& files);
+/// obj_id of each model file: from `obj_NNNNNN` names, else 1.. by the sort of all names, in
+/// whatever order they are given. Throws std::runtime_error for two models of one obj_id.
+std::map<int, std::filesystem::path> number_models(std::vector<std::filesystem::path> files);
 
 }  // namespace posevote::layouts

@@ -34,17 +34,23 @@ TEST_CASE("an argument that matches nothing is named", "[inputs]") {
   CHECK_THROWS_WITH(list_models({"/nowhere/*.ply"}), Catch::Contains("/nowhere/*.ply"));
 }
 
-TEST_CASE("obj_id comes from the name, else from the order; a clash is an error", "[inputs]") {
+TEST_CASE("obj_id comes from the name, in whatever order; a clash is an error", "[inputs]") {
   const TemporaryFolder folder;
   const std::string named = folder.write("obj_000009.ply", "");
   const std::string plain = folder.write("chef.ply", "");
   const std::string clash = folder.write("obj_000001.ply", "");
-  const ModelFiles models = list_models({named, plain});
-  REQUIRE(models.size() == 2);
-  CHECK(models[0].obj_id == 2);
-  CHECK(models[0].name == "chef");
-  CHECK(models[1].obj_id == 9);
-  CHECK_THROWS_WITH(list_models({plain, clash}), Catch::Contains("has obj_id 1, as has"));
+  const std::string rex = folder.write("T-rex.ply", "");
+  for (const std::vector<std::string>& given :
+       {std::vector{named, plain, rex}, std::vector{plain, rex, named}}) {
+    const ModelFiles models = list_models(given);
+    REQUIRE(models.size() == 3);
+    CHECK(models[0].obj_id == 1);
+    CHECK(models[0].name == "T-rex");
+    CHECK(models[1].obj_id == 2);
+    CHECK(models[1].name == "chef");
+    CHECK(models[2].obj_id == 9);
+  }
+  CHECK_THROWS_WITH(list_models({rex, clash}), Catch::Contains("has obj_id 1, as has"));
 }
 
 TEST_CASE("a folder of models may hold their textures, a folder of scans depth images",
