@@ -141,12 +141,44 @@ int graph_command(const std::string& config, const std::vector<std::string>& set
   return 0;
 }
 
+namespace {
+
+/// How to add to the house, before the reference of what is there.
+constexpr const char* kHowToAdd = R"(## Add one
+
+Each of these is one file, which registers itself, and its test. Nothing else names it: CMake, help,
+this page, `posevote check` and the style tests find it.
+
+| | put it into | example |
+|---|---|---|
+| a node | `nodes/VERB/NAME.cpp` | `tests/examples/crop_box.cpp` |
+| a node that carries something from frame to frame | the same | `tests/examples/average_count.cpp` |
+| a descriptor | `nodes/describe/describe_NAME.cpp` | `nodes/describe/describe_shot.cpp` |
+| a format of scans and models | `nodes/formats/read_NAME.cpp` | `tests/examples/read_xyz.cpp` |
+| a layout of data sets | `nodes/layouts/NAME.cpp` | `tests/examples/flat_folder.cpp` |
+| a command | `tools/options/NAME.cpp` | `tests/examples/count_points.cpp` |
+
+A node's file holds, in this order: a comment (what, from which paper, cost, how it fails, a line of YAML that
+can be pasted), `struct Params` with defaults, the pure function `Out f(const In&..., const Params&)`, one
+registration expression. The function may throw; the frame then fails by the node's name and the others go on. It
+may use `graph/parallel.hpp` and nothing else of `graph/`. Its test runs it by name
+(`tests/support/run_node.hpp`): `tests/nodes/VERB/NAME_test.cpp`. Then `posevote docs`.
+
+A verb's folder holds its nodes and what is private to one of them. What two nodes share goes to a room: data,
+geometry, descriptors, library, formats, layouts, density, poses, pictures, adapters. A room sees only those
+before it, a verb no other verb; `tests/style/rooms_test.cpp` holds that. One sub-namespace a folder.
+
+)";
+
+}  // namespace
+
 std::string node_reference() {
   std::map<std::string, std::string> folders;
   for (const NodeSpec* spec : graph::all_nodes()) folders[folder_of(*spec)] += section(*spec);
   std::string text =
       "# Nodes\n\nMade by `posevote docs` from the registry; do not edit. Lengths in metres; "
       "\"x resolution\" means\nmultiples of the run's voxel edge (`derive_scale`).\n\n";
+  text += kHowToAdd;
   for (const std::string& folder : kWayOfTheData)
     if (folders.contains(folder))
       text += "## " + folder + "\n\n" + folders.extract(folder).mapped();
