@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "nodes/density/vote_pose.hpp"
+#include "nodes/density/find_modes.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/votes.hpp"
 
@@ -25,6 +25,10 @@ struct Example {
   Correspondences matches;
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
 };
+
+Eigen::Isometry3d pose_of(const VoteSet& votes, std::uint32_t vote) {
+  return T_scene_model_of(density::vote_hypothesis(votes, vote), votes.model->center);
+}
 
 void place(Example& example, std::mt19937& random) {
   const FeatureSet& model = example.model->features;
@@ -81,8 +85,8 @@ std::uint32_t nearest_vote(const Example& example, const VoteSet& votes, std::ui
   const std::uint32_t count = votes.votes_per_correspondence;
   std::uint32_t best = i * count;
   for (std::uint32_t v = i * count; v < (i + 1) * count; ++v)
-    if (angle_to(density::vote_pose(votes, v), example.T_scene_model) <
-        angle_to(density::vote_pose(votes, best), example.T_scene_model))
+    if (angle_to(pose_of(votes, v), example.T_scene_model) <
+        angle_to(pose_of(votes, best), example.T_scene_model))
       best = v;
   return best;
 }
@@ -93,12 +97,11 @@ TEST_CASE("one vote of a true correspondence is the true pose", "[vote]") {
   REQUIRE(votes.tx.size() == 20 * 60);
   for (std::uint32_t i = 0; i < 20; ++i) {
     const std::uint32_t v = nearest_vote(example, votes, i);
-    const double angle = angle_to(density::vote_pose(votes, v), example.T_scene_model);
+    const double angle = angle_to(pose_of(votes, v), example.T_scene_model);
     REQUIRE(angle <= 3.001 * kDegree);
     // The centre is off by the chord of that angle on a circle no wider than 0.1 m.
     const Eigen::Vector3d center(example.model->center.cast<double>());
-    const double distance =
-        (density::vote_pose(votes, v) * center - example.T_scene_model * center).norm();
+    const double distance = (pose_of(votes, v) * center - example.T_scene_model * center).norm();
     REQUIRE(distance <= 2 * 0.1 * std::sin(angle / 2) + 1e-6);
   }
 }
@@ -108,7 +111,7 @@ TEST_CASE("every vote carries the model's oriented point onto the scene's", "[vo
   const VoteSet votes = cast(example, GENERATE("1", "7", "60"));
   for (std::uint32_t v = 0; v < votes.tx.size(); ++v) {
     const Eigen::Index i = v / votes.votes_per_correspondence;
-    const Eigen::Isometry3d T = density::vote_pose(votes, v);
+    const Eigen::Isometry3d T = pose_of(votes, v);
     const FeatureSet& model = example.model->features;
     const Eigen::Vector3d p = T * Eigen::Vector3d(model.points.row(i).cast<double>());
     const Eigen::Vector3d n = T.linear() * Eigen::Vector3d(model.normals.row(i).cast<double>());
@@ -122,8 +125,7 @@ TEST_CASE("every vote carries the model's oriented point onto the scene's", "[vo
 TEST_CASE("the votes of a correspondence are evenly turned", "[vote]") {
   const VoteSet votes = cast(random_example(7, 1), "12");
   for (std::uint32_t v = 1; v < 12; ++v)
-    CHECK(angle_to(density::vote_pose(votes, v - 1), density::vote_pose(votes, v)) ==
-          Approx(30 * kDegree));
+    CHECK(angle_to(pose_of(votes, v - 1), pose_of(votes, v)) == Approx(30 * kDegree));
 }
 
 TEST_CASE("normals through the centre still give all turns, about one centre", "[vote]") {
@@ -132,7 +134,7 @@ TEST_CASE("normals through the centre still give all turns, about one centre", "
   const Eigen::Vector3d center = example.T_scene_model * example.model->center.cast<double>();
   for (std::uint32_t i = 0; i < 20; ++i) {
     const std::uint32_t v = nearest_vote(example, votes, i);
-    CHECK(angle_to(density::vote_pose(votes, v), example.T_scene_model) <= 3.001 * kDegree);
+    CHECK(angle_to(pose_of(votes, v), example.T_scene_model) <= 3.001 * kDegree);
     for (std::uint32_t k = i * 60; k < (i + 1) * 60; ++k)
       REQUIRE(
           (Eigen::Vector3f(votes.tx[k], votes.ty[k], votes.tz[k]).cast<double>() - center).norm() <
@@ -145,7 +147,7 @@ TEST_CASE("a flipped scene normal leaves no correct vote", "[vote]") {
   example.scene.normals *= -1;
   const VoteSet votes = cast(example);
   for (std::uint32_t v = 0; v < votes.tx.size(); ++v)
-    REQUIRE(angle_to(density::vote_pose(votes, v), example.T_scene_model) > 179 * kDegree);
+    REQUIRE(angle_to(pose_of(votes, v), example.T_scene_model) > 179 * kDegree);
 }
 
 VoteSet cast_in(const Example& example, const graph::FrameContext& frame) {
