@@ -189,7 +189,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   std::vector<SceneEntry> scenes = take_shard(find_scenes(command), command.shard);
   if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
   const auto library = as_arguments([&] { return find_library(command, configuration); });
-  if (!library->index->reproducible())
+  if (!library->octaves.front().index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
 
   const graph::Constants constants = constants_of(configuration, library);

@@ -17,7 +17,9 @@ int train_command(const TrainCommand& command) {
               << " points, " << model->features.points.rows() << " features, "
               << model->near_symmetries.items.size() << " near symmetries, diagonal "
               << model->diagonal << " m\n";
-  std::cout << "resolution " << library->scale.resolution << " m; wrote " << command.out << "\n";
+  for (const LibraryOctave& octave : library->octaves)
+    std::cout << "octave of " << octave.resolution << " m: " << octave.rows.size() << " models\n";
+  std::cout << "wrote " << command.out << "\n";
   return 0;
 }
 

@@ -10,9 +10,10 @@
 
 namespace posevote {
 
-/// The one length that all others follow: how far apart the points of a run are. Descriptors agree
+/// The length that all others follow: how far apart the points of a cloud are. Descriptors agree
 /// only where models and scans are sampled alike, so radii and distances of the nodes are multiples
-/// of it ("x resolution"), as in the authors' own code.
+/// of it ("x resolution"), as in the authors' own code. An object is described at several of them,
+/// its octaves, each twice the one before, and a scan at those that its objects have in common.
 struct Scale {
   float resolution = 0;  ///< edge of the voxel grid [m]
 };
@@ -25,6 +26,12 @@ struct FeaturePoints {
 /// n x d, one descriptor a row.
 using DescriptorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Rows of a FeatureSet that were described at one scale.
+struct Octave {
+  float resolution = 0;            ///< [m]; compared exactly: octaves are powers of two
+  std::uint32_t begin = 0, end = 0;  ///< rows
+};
+
 /// Oriented feature points and their descriptors; row i of each belongs together.
 struct FeatureSet {
   PointMatrix points;            ///< n x 3 [m]
@@ -33,7 +40,15 @@ struct FeatureSet {
   /// Several descriptors side by side, each compared by itself: their numbers of columns, of sum d.
   /// Empty: one descriptor.
   std::vector<std::uint32_t> blocks;
+  /// All rows, in ascending order of resolution; empty: one octave, of no matter what scale.
+  std::vector<Octave> octaves;
 };
+
+/// The octaves, of which there always is one.
+inline std::vector<Octave> octaves_of(const FeatureSet& features) {
+  if (!features.octaves.empty()) return features.octaves;
+  return {{0, 0, static_cast<std::uint32_t>(features.points.rows())}};
+}
 
 struct Model;
 

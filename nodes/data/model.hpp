@@ -43,24 +43,48 @@ struct Outline {
   std::vector<std::uint8_t> ends;  ///< per point of the model's cloud
 };
 
-/// One object, preprocessed and described.
+/// One object, preprocessed and described. Its cloud, near symmetries and outline belong together.
 struct Model {
   std::string name;
   int obj_id = 1;
-  Cloud cloud;          ///< downsampled, outward unit normals, in the model's own frame
-  FeatureSet features;  ///< of a uniform subset of the cloud
+  float resolution = 0;  ///< of the cloud [m]
+  Cloud cloud;           ///< downsampled, outward unit normals, in the model's own frame
+  FeatureSet features;   ///< of uniform subsets of the clouds of all octaves
   Eigen::Vector3f center =
       Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
   float diagonal = 0;           ///< of that bounding box [m]
   NearSymmetries near_symmetries;
   Outline outline;
+  /// The same object at its next octaves, ascending; the features are all in the finest.
+  std::vector<std::shared_ptr<const Model>> coarser;
+
+  /// The finest that is not finer than a scan, or the coarsest: scans are judged by it.
+  const Model& at(float scan_resolution) const {
+    const Model* best = this;
+    for (const auto& next : coarser)
+      if (best->resolution < scan_resolution) best = next.get();
+    return *best;
+  }
 };
 
-/// All models of a run. Matching searches one index that holds every model's descriptors.
-struct ModelLibrary {
-  std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id
-  Scale scale;
+/// Some of a model's features in an index.
+struct IndexedRows {
+  std::uint32_t model = 0;  ///< number in the library
+  std::uint32_t begin = 0;  ///< first row of its FeatureSet
+  std::uint32_t first = 0;  ///< that row in the index
+};
+
+/// The descriptors of all models at one scale; matching searches them together.
+struct LibraryOctave {
+  float resolution = 0;  ///< [m]
   std::shared_ptr<const descriptors::DescriptorIndex> index;
+  std::vector<IndexedRows> rows;  ///< ascending
+};
+
+/// All models of a run.
+struct ModelLibrary {
+  std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id, each at its finest
+  std::vector<LibraryOctave> octaves;                ///< ascending resolution
 };
 
 /// The model of that obj_id, or null.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -216,19 +217,52 @@ const IndexOptions& DescriptorIndex::options() const { return data_->options; }
 
 bool DescriptorIndex::reproducible() const { return data_->options.search != "approximate"; }
 
-std::shared_ptr<const DescriptorIndex> index_of(
-    const std::vector<std::shared_ptr<const Model>>& models, const IndexOptions& options) {
-  std::vector<const DescriptorMatrix*> matrices;
-  matrices.reserve(models.size());
-  for (const auto& model : models) {
+namespace {
+
+void require_alike(const std::vector<std::shared_ptr<const Model>>& models) {
+  for (const auto& model : models)
     if (model->features.blocks != models[0]->features.blocks)
       throw std::runtime_error("the features of '" + models[0]->name + "' are " +
                                text_of(models[0]->features.blocks) + ", those of '" + model->name +
                                "' " + text_of(model->features.blocks));
-    matrices.push_back(&model->features.descriptors);
-  }
-  const Blocks blocks = models.empty() ? Blocks{} : models[0]->features.blocks;
-  return std::make_shared<const DescriptorIndex>(matrices, options, blocks);
+}
+
+/// The rows of all models at one scale.
+LibraryOctave index_octave(const std::vector<std::shared_ptr<const Model>>& models,
+                           float resolution, const IndexOptions& options) {
+  LibraryOctave octave;
+  octave.resolution = resolution;
+  std::vector<DescriptorMatrix> parts;
+  std::uint32_t first = 0;
+  for (std::uint32_t m = 0; m < models.size(); ++m)
+    for (const Octave& rows : octaves_of(models[m]->features)) {
+      if (rows.resolution != resolution || rows.begin == rows.end) continue;
+      octave.rows.push_back({m, rows.begin, first});
+      parts.emplace_back(
+          models[m]->features.descriptors.middleRows(rows.begin, rows.end - rows.begin));
+      first += rows.end - rows.begin;
+    }
+  std::vector<const DescriptorMatrix*> matrices;
+  for (const DescriptorMatrix& part : parts) matrices.push_back(&part);
+  octave.index =
+      std::make_shared<const DescriptorIndex>(matrices, options, models[0]->features.blocks);
+  return octave;
+}
+
+}  // namespace
+
+std::vector<LibraryOctave> index_octaves(const std::vector<std::shared_ptr<const Model>>& models,
+                                         const IndexOptions& options) {
+  require_alike(models);
+  std::set<float> resolutions;
+  for (const auto& model : models)
+    for (const Octave& rows : octaves_of(model->features))
+      if (rows.begin < rows.end) resolutions.insert(rows.resolution);
+  if (resolutions.empty()) throw std::runtime_error("there are no descriptors to search");
+  std::vector<LibraryOctave> octaves;
+  for (const float resolution : resolutions)
+    octaves.push_back(index_octave(models, resolution, options));
+  return octaves;
 }
 
 }  // namespace posevote::descriptors

@@ -53,9 +53,9 @@ class DescriptorIndex {
   std::unique_ptr<const Data> data_;
 };
 
-/// The index over the features of these models, in their order. Throws std::runtime_error where
-/// they are fused differently.
-std::shared_ptr<const DescriptorIndex> index_of(
-    const std::vector<std::shared_ptr<const Model>>& models, const IndexOptions& options);
+/// An index for each octave that any of these models has. Throws std::runtime_error where their
+/// features are fused differently, or where there are none.
+std::vector<LibraryOctave> index_octaves(const std::vector<std::shared_ptr<const Model>>& models,
+                                         const IndexOptions& options);
 
 }  // namespace posevote::descriptors

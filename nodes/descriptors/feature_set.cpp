@@ -48,11 +48,8 @@ FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
     kept.push_back(row);
     kept_points.push_back(points.indices[i]);
   }
-  if (kept.empty())
-    throw std::runtime_error("none of " + std::to_string(points.indices.size()) +
-                             " feature points has enough neighbours and a normal to be described");
   Cloud at = geometry::select_rows(cloud, kept_points);
-  return {std::move(at.points), std::move(at.normals), descriptors(kept, Eigen::all), {}};
+  return {std::move(at.points), std::move(at.normals), descriptors(kept, Eigen::all), {}, {}};
 }
 
 Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius)

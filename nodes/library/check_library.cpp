@@ -45,6 +45,13 @@ void check_features(const FeatureSet& features) {
   require_count(features.descriptors.rows(), features.points.rows(), "descriptors");
   require(features.points.allFinite(), "feature points are not finite");
   require_unit(features.normals, false, "feature normal");
+  std::uint32_t next = 0;
+  for (const Octave& octave : features.octaves) {
+    require(octave.begin == next && octave.end >= octave.begin, "octaves overlap");
+    next = octave.end;
+  }
+  if (!features.octaves.empty())
+    require_count(next, features.points.rows(), "features in octaves");
 }
 
 /// Points lie in the bounding box, so within half its diagonal, give or take rounding.
@@ -56,6 +63,7 @@ void require_inside(const PointMatrix& points, const Model& model, const std::st
 
 void check_model(const Model& model) {
   require_length(model.diagonal, "the diagonal");
+  require_length(model.resolution, "the resolution");
   require(model.center.allFinite(), "the centre is not finite");
   check_cloud(model.cloud);
   check_features(model.features);
@@ -70,12 +78,15 @@ void check_model(const Model& model) {
   require_length(model.outline.reach, "the outline's reach");
   require_count(static_cast<Eigen::Index>(model.outline.ends.size()), model.cloud.points.rows(),
                 "points in the outline");
+  for (const auto& octave : model.coarser) {
+    require(octave->resolution > model.resolution, "octaves do not ascend");
+    check_model(*octave);
+  }
 }
 
 }  // namespace
 
 void check_library(const ModelLibrary& library) {
-  require_length(library.scale.resolution, "the resolution");
   require(!library.models.empty(), "there are no models");
   const Model* before = nullptr;
   for (const auto& model : library.models) {

@@ -19,14 +19,25 @@ void put_numbers(ByteWriter& out, const std::vector<std::uint32_t>& numbers) {
   for (const std::uint32_t number : numbers) out.put(number);
 }
 
+void put_features(ByteWriter& out, const FeatureSet& features) {
+  out.put_matrix(features.points);
+  out.put_matrix(features.normals);
+  out.put_matrix(features.descriptors);
+  put_numbers(out, features.blocks);
+  out.put(std::uint64_t{features.octaves.size()});
+  for (const Octave& octave : features.octaves) {
+    out.put(octave.resolution);
+    out.put(octave.begin);
+    out.put(octave.end);
+  }
+}
+
 void put_model(ByteWriter& out, const Model& model) {
   out.put(model.name);
   out.put(std::int32_t{model.obj_id});
+  out.put(model.resolution);
   put_cloud(out, model.cloud);
-  out.put_matrix(model.features.points);
-  out.put_matrix(model.features.normals);
-  out.put_matrix(model.features.descriptors);
-  put_numbers(out, model.features.blocks);
+  put_features(out, model.features);
   out.put_matrix(model.center);
   out.put(model.diagonal);
   out.put(std::uint64_t{model.near_symmetries.items.size()});
@@ -38,6 +49,8 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put(model.outline.reach);
   out.put(std::string_view(reinterpret_cast<const char*>(model.outline.ends.data()),
                            model.outline.ends.size()));
+  out.put(std::uint64_t{model.coarser.size()});
+  for (const auto& octave : model.coarser) put_model(out, *octave);
 }
 
 std::vector<std::uint32_t> get_numbers(ByteReader& in) {
@@ -67,15 +80,30 @@ Cloud get_cloud(ByteReader& in) {
   return cloud;
 }
 
-Model get_model(ByteReader& in) {
+FeatureSet get_features(ByteReader& in) {
+  FeatureSet features;
+  features.points = in.get_matrix<PointMatrix>();
+  features.normals = in.get_matrix<PointMatrix>();
+  features.descriptors = in.get_matrix<DescriptorMatrix>();
+  features.blocks = get_numbers(in);
+  const auto octaves = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < octaves; ++i) {
+    Octave& octave = features.octaves.emplace_back();
+    octave.resolution = in.get<float>();
+    octave.begin = in.get<std::uint32_t>();
+    octave.end = in.get<std::uint32_t>();
+  }
+  return features;
+}
+
+/// `depth`: a model's coarser octaves have none themselves.
+Model get_model(ByteReader& in, int depth = 0) {
   Model model;
   model.name = in.get_text();
   model.obj_id = in.get<std::int32_t>();
+  model.resolution = in.get<float>();
   model.cloud = get_cloud(in);
-  model.features.points = in.get_matrix<PointMatrix>();
-  model.features.normals = in.get_matrix<PointMatrix>();
-  model.features.descriptors = in.get_matrix<DescriptorMatrix>();
-  model.features.blocks = get_numbers(in);
+  model.features = get_features(in);
   model.center = get_vector(in);
   model.diagonal = in.get<float>();
   const auto near_symmetries = in.get<std::uint64_t>();
@@ -88,6 +116,10 @@ Model get_model(ByteReader& in) {
   model.outline.reach = in.get<float>();
   const std::string_view ends = in.get_text();
   model.outline.ends.assign(ends.begin(), ends.end());
+  const auto coarser = in.get<std::uint64_t>();
+  if (depth > 0 && coarser > 0) throw std::runtime_error("is damaged: an octave has octaves");
+  for (std::uint64_t i = 0; i < coarser; ++i)
+    model.coarser.push_back(std::make_shared<const Model>(get_model(in, depth + 1)));
   return model;
 }
 
@@ -95,10 +127,9 @@ Model get_model(ByteReader& in) {
 
 std::string encode_library(const ModelLibrary& library) {
   check_library(library);
-  if (!library.index) throw std::runtime_error("the library has no index");
+  if (library.octaves.empty()) throw std::runtime_error("the library has no index");
   ByteWriter out;
-  out.put(library.scale.resolution);
-  const descriptors::IndexOptions& options = library.index->options();
+  const descriptors::IndexOptions& options = library.octaves[0].index->options();
   out.put(options.search);
   out.put(std::int32_t{options.trees});
   out.put(std::int32_t{options.checks});
@@ -110,7 +141,6 @@ std::string encode_library(const ModelLibrary& library) {
 ModelLibrary decode_library(std::string_view bytes) {
   ByteReader in(bytes);
   ModelLibrary library;
-  library.scale.resolution = in.get<float>();
   descriptors::IndexOptions options;
   options.search = in.get_text();
   options.trees = in.get<std::int32_t>();
@@ -121,7 +151,7 @@ ModelLibrary decode_library(std::string_view bytes) {
   if (!in.rest().empty()) throw std::runtime_error("is damaged: it goes on after its end");
   try {
     check_library(library);
-    library.index = descriptors::index_of(library.models, options);
+    library.octaves = descriptors::index_octaves(library.models, options);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(std::string("is damaged: ") + error.what());
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matches every feature of the scene to the nearest descriptor of all models: it votes for the one
-// object that owns that descriptor (Buch, Kiforenko, Kraft, ICCV 2017, multi-object recognition).
+// Matches every feature of the scene to the nearest descriptor of all models at the same scale: it
+// votes for the one object that owns that descriptor (Buch, Kiforenko, Kraft, ICCV 2017,
+// multi-object recognition). The octaves of a scan are matched one by one, and all matches of an
+// object vote together: voting does not care where a correspondence comes from.
 // Each correspondence carries the ratio of the squared distances to the nearest and
 // the second nearest descriptor, the authors' own match score: 0 is distinctive, 1 is a coin toss
 // (0/0 counts as 1). Where features carry several descriptors (fuse_features), each is searched
@@ -14,6 +16,7 @@
 //   match_features: {in: [scene_features, library], out: correspondences, max_ratio: 1}
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
@@ -29,35 +32,37 @@ struct Params {
   double max_distance = 0;
 };
 
-/// First row of each model in the index, and the end.
-std::vector<std::uint32_t> first_rows(const ModelLibrary& library) {
-  std::vector<std::uint32_t> first{0};
-  for (const auto& model : library.models)
-    first.push_back(first.back() + static_cast<std::uint32_t>(model->features.descriptors.rows()));
-  return first;
+/// The matches of the scene's features at one scale, to be added to those of each model.
+void match_octave(const FeatureSet& scene, const Octave& rows, const LibraryOctave& library,
+                  const Params& params, std::vector<Correspondences>& matches) {
+  const std::vector<descriptors::TwoNearest> nearest = library.index->nearest_two(
+      scene.descriptors.middleRows(rows.begin, rows.end - rows.begin), scene.blocks);
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const float ratio = descriptors::squared_ratio(nearest[i]);
+    const float distance = std::sqrt(nearest[i].squared[0]);
+    if (ratio > static_cast<float>(params.max_ratio)) continue;
+    if (params.max_distance > 0 && distance > static_cast<float>(params.max_distance)) continue;
+    const std::uint32_t row = nearest[i].row[0];
+    const auto behind = std::upper_bound(
+        library.rows.begin(), library.rows.end(), row,
+        [](std::uint32_t wanted, const IndexedRows& some) { return wanted < some.first; });
+    const IndexedRows& owner = *std::prev(behind);
+    Correspondences& votes = matches[owner.model];
+    votes.scene_feature.push_back(rows.begin + static_cast<std::uint32_t>(i));
+    votes.model_feature.push_back(owner.begin + row - owner.first);
+    votes.distance.push_back(distance);
+    votes.ratio.push_back(ratio);
+  }
 }
 
 PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLibrary& library,
                                           const Params& params) {
-  if (!library.index) throw std::runtime_error("the model library has no index");
-  const std::vector<descriptors::TwoNearest> nearest =
-      library.index->nearest_two(scene.descriptors, scene.blocks);
-  const std::vector<std::uint32_t> first = first_rows(library);
+  if (library.octaves.empty()) throw std::runtime_error("the model library has no index");
   std::vector<Correspondences> matches(library.models.size());
   for (std::size_t i = 0; i < matches.size(); ++i) matches[i].model = library.models[i];
-  for (std::size_t feature = 0; feature < nearest.size(); ++feature) {
-    const float ratio = descriptors::squared_ratio(nearest[feature]);
-    const float distance = std::sqrt(nearest[feature].squared[0]);
-    if (ratio > static_cast<float>(params.max_ratio)) continue;
-    if (params.max_distance > 0 && distance > static_cast<float>(params.max_distance)) continue;
-    const std::uint32_t row = nearest[feature].row[0];
-    const auto owner = std::upper_bound(first.begin(), first.end(), row) - first.begin() - 1;
-    Correspondences& votes = matches[static_cast<std::size_t>(owner)];
-    votes.scene_feature.push_back(static_cast<std::uint32_t>(feature));
-    votes.model_feature.push_back(row - first[static_cast<std::size_t>(owner)]);
-    votes.distance.push_back(distance);
-    votes.ratio.push_back(ratio);
-  }
+  for (const Octave& rows : octaves_of(scene))
+    for (const LibraryOctave& octave : library.octaves)
+      if (octave.resolution == rows.resolution) match_octave(scene, rows, octave, params, matches);
   PerObject<Correspondences> correspondences;
   for (Correspondences& votes : matches)
     correspondences.slots.push_back(std::make_shared<const Correspondences>(std::move(votes)));

@@ -37,12 +37,14 @@ double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_
 }
 
 std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
-                                       float distance) const {
+                                       float distance, const std::vector<Octave>& octaves) const {
   const geometry::PointGrid grid(model.cloud.points, distance);
   const std::vector<char> now =
       explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) count += now[i] != 0 && feature_explained[i] == 0;
+  for (const Octave& rows : octaves)
+    for (std::size_t i = rows.begin; i < rows.end; ++i)
+      count += now[i] != 0 && feature_explained[i] == 0;
   return count;
 }
 

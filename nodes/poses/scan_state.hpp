@@ -21,9 +21,9 @@ struct ScanState {
   /// Takes what a posed model explains, up to `distance` [m] from its surface, out of the scan's
   /// points and features. Free space stays what it is: `view` keeps all points.
   void take_out(const Model& model, const Eigen::Isometry3d& T_scene_model, float distance);
-  /// How many features that nothing explained yet would a posed model explain.
+  /// How many features of these octaves that nothing explained yet would a posed model explain.
   std::size_t count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
-                              float distance) const;
+                              float distance, const std::vector<Octave>& octaves) const;
 
   /// How far a posed model's centre is from the sensor [m].
   double range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/segment_params.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -17,8 +18,10 @@ void check_normals(const std::string& what, const PointMatrix& points, const Poi
 
 }  // namespace
 
-InstanceParams instance_params(const SegmentParams& params, const Model& model, float resolution) {
-  const auto length = [&](double multiple) { return static_cast<float>(multiple) * resolution; };
+InstanceParams instance_params(const SegmentParams& params, const Model& model,
+                               float scan_resolution) {
+  const float coarser = std::max(scan_resolution, model.resolution);
+  const auto length = [&](double multiple) { return static_cast<float>(multiple) * coarser; };
   InstanceParams out;
   out.max_instances = params.max_instances;
   out.candidates = static_cast<std::size_t>(params.candidates);

@@ -25,8 +25,10 @@ struct SegmentParams {
   Terms terms;
 };
 
-/// The lengths for one object [m].
-InstanceParams instance_params(const SegmentParams& params, const Model& model, float resolution);
+/// The lengths for one object [m]: multiples of the scan's resolution, or of the model's where that
+/// is coarser.
+InstanceParams instance_params(const SegmentParams& params, const Model& model,
+                               float scan_resolution);
 
 /// Densities are for the caller to fill in.
 Detection make_detection(const Model& model, const Candidate& candidate);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "nodes/poses/scan_state.hpp"
 #include "nodes/poses/terms.hpp"
@@ -31,6 +32,8 @@ struct Sought {
   /// How many votes a correspondence casts, if a pose's support is their density: then it counts in
   /// the score. 0: rivals' own measures differ in scale, and the quality alone makes their score.
   std::uint32_t votes_per_correspondence = 0;
+  /// Rows of the scan's features whose scale the model was described at; they alone can vote.
+  std::vector<Octave> voters = {};
   double most_support = 1;  ///< of the poses that are compared
 };
 

@@ -42,12 +42,13 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
   for (const auto& object : objects.slots) poses::check_model(*object->model);
   poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms);
   std::vector<poses::ObjectSearch> searches;
-  for (const auto& object : objects.slots)
+  for (const auto& object : objects.slots) {
+    const Model& model = object->model->at(scan.resolution);
     searches.emplace_back(
-        poses::Sought{*object->model, scan,
-                      poses::instance_params(params, *object->model, scan.resolution),
+        poses::Sought{model, scan, poses::instance_params(params, model, scan.resolution),
                       params.terms},
         propose_from(*object, params.min_density));
+  }
   Detections found;
   for (const poses::Instance& instance : poses::find_instances(searches, scan)) {
     const Hypotheses& object = objects[instance.object];

@@ -16,12 +16,26 @@
 //
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}
+#include <algorithm>
+
 #include "nodes/density/refine_mode.hpp"
 #include "nodes/poses/segment_params.hpp"
 #include "nodes/segment/live_votes.hpp"
 
 namespace posevote::segment {
 namespace {
+
+/// The scan's features at the scales at which a model was described.
+std::vector<Octave> voters_for(const Model& model, const FeatureSet& scene_features) {
+  const std::vector<Octave> octaves = octaves_of(model.features);
+  std::vector<Octave> voters = octaves_of(scene_features);
+  std::erase_if(voters, [&](const Octave& rows) {
+    return std::none_of(octaves.begin(), octaves.end(), [&](const Octave& octave) {
+      return octave.resolution == rows.resolution;
+    });
+  });
+  return voters;
+}
 
 Detection make_detection(const LiveVotes& object, const poses::Candidate& candidate) {
   const Model& model = *object.votes->model;
@@ -62,9 +76,13 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
     objects.push_back(all_votes(votes[i], densities[i]));
   std::vector<poses::ObjectSearch> searches;
   for (LiveVotes& object : objects) {
-    const Model& model = *object.votes->model;
-    const poses::Sought sought{model, scan, poses::instance_params(params, model, scan.resolution),
-                               params.terms, object.votes->votes_per_correspondence};
+    const Model& model = object.votes->model->at(scan.resolution);
+    const poses::Sought sought{model,
+                               scan,
+                               poses::instance_params(params, model, scan.resolution),
+                               params.terms,
+                               object.votes->votes_per_correspondence,
+                               voters_for(*object.votes->model, scene_features)};
     searches.emplace_back(sought,
                           propose_from(object, scan, params.min_density, params.terms.shift));
   }

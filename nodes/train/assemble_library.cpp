@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts the trained models together and builds the one index over all their descriptors, so that
+// Puts the trained models together, each with all its octaves (derive_scale.cpp says in which
+// order they come), and builds for each octave one index over the descriptors of all models, so that
 // each scene feature can vote for exactly one object (Buch, Kiforenko, Kraft, ICCV 2017,
 // multi-object recognition). How the index is searched belongs to the library and not to matching:
 // see descriptor_index.hpp.
@@ -9,37 +10,66 @@
 //
 // Fails where two models have the same obj_id, or descriptors differ in length. Time: O(size).
 //
-//   assemble_library: {in: [model_files, model_meshes, model_clouds, model_features,
-//                           near_symmetries, outlines, scale], out: library, search: exact}
+//   assemble_library: {in: [model_files, octave_meshes, model_clouds, model_features,
+//                           near_symmetries, outlines, octaves], out: library, search: exact}
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/descriptors/octaves.hpp"
 
 namespace posevote::train {
 namespace {
 
 using Params = descriptors::IndexOptions;
 
-Model assemble_model(const ModelFile& file, const Mesh& mesh, const Cloud& cloud,
-                     const FeatureSet& features, const NearSymmetries& near_symmetries,
-                     const Outline& outline) {
-  if (mesh.points.rows() == 0) throw std::runtime_error(file.path.string() + ": has no points");
+/// What training made of one model at one octave.
+struct Part {
+  const Cloud& cloud;
+  const FeatureSet& features;
+  const NearSymmetries& near_symmetries;
+  const Outline& outline;
+  const Scale& scale;
+};
+
+/// A model at one octave, without features.
+Model shape_of(const ModelFile& file, const Mesh& mesh, const Part& part) {
   Model model;
   model.name = file.name;
   model.obj_id = file.obj_id;
-  model.cloud = cloud;
-  model.features = features;
+  model.resolution = part.scale.resolution;
+  model.cloud = part.cloud;
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   model.center = (0.5F * (low + high)).transpose();
   model.diagonal = (high - low).norm();
-  model.near_symmetries = near_symmetries;
-  model.outline = outline;
+  model.near_symmetries = part.near_symmetries;
+  model.outline = part.outline;
+  return model;
+}
+
+/// `octaves`: ascending.
+Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<Part>& octaves) {
+  if (mesh.points.rows() == 0) throw std::runtime_error(file.path.string() + ": has no points");
+  Model model = shape_of(file, mesh, octaves.at(0));
+  for (std::size_t k = 1; k < octaves.size(); ++k)
+    model.coarser.push_back(std::make_shared<const Model>(shape_of(file, mesh, octaves[k])));
+  std::vector<const FeatureSet*> features;
+  std::vector<Scale> scales;
+  for (const Part& part : octaves) {
+    features.push_back(&part.features);
+    scales.push_back(part.scale);
+  }
+  model.features = descriptors::stack_octaves(features, scales);
+  if (model.features.points.rows() == 0)
+    throw std::runtime_error(
+        file.path.string() +
+        ": none of its feature points has enough neighbours and a normal to be described");
   return model;
 }
 
@@ -53,29 +83,37 @@ void require_distinct_ids(const ModelLibrary& library) {
   }
 }
 
+void require_slots(std::size_t models, std::size_t octaves, const std::vector<std::size_t>& sizes) {
+  if (models == 0) throw std::runtime_error("there are no models");
+  for (const std::size_t size : sizes)
+    if (size != octaves || size == 0 || size % models != 0)
+      throw std::runtime_error(std::to_string(models) + " model files in " +
+                               std::to_string(octaves) + " octaves, but " + std::to_string(size) +
+                               " results of training");
+}
+
 ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& meshes,
                               const PerObject<Cloud>& clouds, const PerObject<FeatureSet>& features,
                               const PerObject<NearSymmetries>& near_symmetries,
-                              const PerObject<Outline>& outlines, const Scale& scale,
+                              const PerObject<Outline>& outlines, const PerObject<Scale>& octaves,
                               const Params& params) {
   const std::size_t count = files.size();
-  if (count == 0) throw std::runtime_error("there are no models");
-  if (meshes.size() != count || clouds.size() != count || features.size() != count ||
-      near_symmetries.size() != count || outlines.size() != count)
-    throw std::runtime_error(
-        std::to_string(count) + " model files, but " + std::to_string(meshes.size()) + " meshes, " +
-        std::to_string(clouds.size()) + " clouds, " + std::to_string(features.size()) +
-        " feature sets, " + std::to_string(near_symmetries.size()) +
-        " lists of near symmetries and " + std::to_string(outlines.size()) + " outlines");
+  require_slots(count, octaves.size(),
+                {meshes.size(), clouds.size(), features.size(), near_symmetries.size(),
+                 outlines.size()});
   ModelLibrary library;
-  library.scale = scale;
-  for (std::size_t i = 0; i < count; ++i)
-    library.models.push_back(std::make_shared<const Model>(assemble_model(
-        files[i], meshes[i], clouds[i], features[i], near_symmetries[i], outlines[i])));
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<Part> parts;
+    for (std::size_t slot = i; slot < octaves.size(); slot += count)
+      parts.push_back({clouds[slot], features[slot], near_symmetries[slot], outlines[slot],
+                       octaves[slot]});
+    library.models.push_back(
+        std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts)));
+  }
   std::stable_sort(library.models.begin(), library.models.end(),
                    [](const auto& a, const auto& b) { return a->obj_id < b->obj_id; });
   require_distinct_ids(library);
-  library.index = descriptors::index_of(library.models, params);
+  library.octaves = descriptors::index_octaves(library.models, params);
   return library;
 }
 
@@ -83,12 +121,12 @@ const auto registered =
     graph::register_node("assemble_library", assemble_library,
                          "The models and one index over the descriptors of all of them.")
         .input("model_files")
-        .input("model_meshes")
+        .input("octave_meshes")
         .input("model_clouds")
         .input("model_features")
         .input("near_symmetries")
         .input("outlines")
-        .input("scale")
+        .input("octaves")
         .output("library")
         .param("search", &Params::search, "",
                "How matching searches: exact and fast, exact by FLANN's k-d tree, or by FLANN's "

@@ -43,7 +43,7 @@ void write_picture(const Cloud& scan, const Detections& detections, const ModelL
   if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
   if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
   pictures::Painter painter(scan, found_points(detections, library), params.width,
-                            library.scale.resolution);
+                            library.octaves.front().resolution);
   painter.draw(scan, Eigen::Isometry3f::Identity(), {0.72F, 0.72F, 0.70F}, 0);
   for (std::size_t i = 0; i < detections.items.size(); ++i) {
     const Detection& found = detections.items[i];
@@ -52,7 +52,7 @@ void write_picture(const Cloud& scan, const Detections& detections, const ModelL
     const Eigen::Isometry3f T_scene_model = found.T_scene_model.cast<float>();
     const pictures::Colour colour = pictures::distinct_colour(i);
     // A good fit lies on the scan: without a lead, scan and model would mix at random.
-    painter.draw(model->cloud, T_scene_model, colour, 2 * library.scale.resolution);
+    painter.draw(model->cloud, T_scene_model, colour, 2 * library.octaves.front().resolution);
     char score[32];
     std::snprintf(score, sizeof score, " %.2f", found.score);
     painter.label(T_scene_model * model->center, found.model + score, colour);

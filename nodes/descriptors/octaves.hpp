@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "nodes/data/features.hpp"
+
+namespace posevote::descriptors {
+
+/// The features of several scales, in ascending order of resolution, one below the other. Scales
+/// without a feature make no octave. Throws std::runtime_error where descriptors differ in length.
+FeatureSet stack_octaves(const std::vector<const FeatureSet*>& features,
+                         const std::vector<Scale>& scales);
+
+}  // namespace posevote::descriptors
