@@ -28,7 +28,7 @@ using DescriptorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Ei
 
 /// Rows of a FeatureSet that were described at one scale.
 struct Octave {
-  float resolution = 0;            ///< [m]; compared exactly: octaves are powers of two
+  float resolution = 0;              ///< [m]; compared exactly: octaves are powers of two
   std::uint32_t begin = 0, end = 0;  ///< rows
 };
 

@@ -50,8 +50,7 @@ void check_features(const FeatureSet& features) {
     require(octave.begin == next && octave.end >= octave.begin, "octaves overlap");
     next = octave.end;
   }
-  if (!features.octaves.empty())
-    require_count(next, features.points.rows(), "features in octaves");
+  if (!features.octaves.empty()) require_count(next, features.points.rows(), "features in octaves");
 }
 
 /// Points lie in the bounding box, so within half its diagonal, give or take rounding.

@@ -43,9 +43,8 @@ double exactness(const Sought& sought, const Candidate& candidate) {
 /// voted for the pose before anybody looked.
 double consensus(const Sought& sought, const Candidate& candidate) {
   const ScoreTerms& terms = sought.terms.score;
-  const std::size_t explained =
-      sought.scan.count_explained(sought.model, candidate.T_scene_model, sought.params.tolerance,
-                                  sought.voters);
+  const std::size_t explained = sought.scan.count_explained(sought.model, candidate.T_scene_model,
+                                                            sought.params.tolerance, sought.voters);
   const double votes = static_cast<double>(std::max<std::size_t>(1, explained)) *
                        sought.votes_per_correspondence / terms.usual_votes;
   const double share = candidate.proposed.support / votes;

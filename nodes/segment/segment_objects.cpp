@@ -30,9 +30,8 @@ std::vector<Octave> voters_for(const Model& model, const FeatureSet& scene_featu
   const std::vector<Octave> octaves = octaves_of(model.features);
   std::vector<Octave> voters = octaves_of(scene_features);
   std::erase_if(voters, [&](const Octave& rows) {
-    return std::none_of(octaves.begin(), octaves.end(), [&](const Octave& octave) {
-      return octave.resolution == rows.resolution;
-    });
+    return std::none_of(octaves.begin(), octaves.end(),
+                        [&](const Octave& octave) { return octave.resolution == rows.resolution; });
   });
   return voters;
 }

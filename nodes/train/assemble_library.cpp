@@ -98,15 +98,15 @@ ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& me
                               const PerObject<Outline>& outlines, const PerObject<Scale>& octaves,
                               const Params& params) {
   const std::size_t count = files.size();
-  require_slots(count, octaves.size(),
-                {meshes.size(), clouds.size(), features.size(), near_symmetries.size(),
-                 outlines.size()});
+  require_slots(
+      count, octaves.size(),
+      {meshes.size(), clouds.size(), features.size(), near_symmetries.size(), outlines.size()});
   ModelLibrary library;
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<Part> parts;
     for (std::size_t slot = i; slot < octaves.size(); slot += count)
-      parts.push_back({clouds[slot], features[slot], near_symmetries[slot], outlines[slot],
-                       octaves[slot]});
+      parts.push_back(
+          {clouds[slot], features[slot], near_symmetries[slot], outlines[slot], octaves[slot]});
     library.models.push_back(
         std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts)));
   }

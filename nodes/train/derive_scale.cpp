@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The resolutions at which each model is sampled and described: its octaves, each twice the one
 // before. Everything else (normal and descriptor radii, feature spacing, ICP distances) is a
-// multiple of them, so a descriptor sees some fifteen hundredths of the object at the finest and
-// half of it at the coarsest: local ones hold in clutter, wide ones tell flat and large objects.
+// multiple of them. Descriptors agree only where models and scans are sampled alike, so a scan is
+// prepared at each resolution that its objects have, once for all that share it.
 //
-// An object's octaves follow from its own bounding box, rounded to a power of two times `grid`, so
-// that objects share them: descriptors agree only where models and scans are sampled alike, and a
-// scan is prepared once for each octave, not for each object.
+// By default all objects have one, which follows from their mean size. With `own`, an object's
+// finest follows from its own bounding box, rounded to a grid of half octaves, so that objects of
+// like size share it. With several `octaves`, descriptors see a seventh of the object at the finest
+// and twice as much at each of the next: local ones hold in clutter, wide ones tell flat and large
+// objects; the votes of all count together.
 //
 // Slot k n + i of both outputs is octave k of model i of n; the meshes are the same for all k.
 //
-//   derive_scale: {in: model_meshes, out: [octave_meshes, octaves], fraction: 0.006, octaves: 3}
+//   derive_scale: {in: model_meshes, out: [octave_meshes, octaves], fraction: 0.006, octaves: 1}
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -28,38 +31,57 @@ namespace {
 struct Params {
   double resolution = 0;
   double fraction = 0.006;
-  double finest = 0;
-  double grid = 0.00125;
-  int octaves = 3;
+  double finest = 0.0005;
+  bool own = false;
+  int octaves = 1;
 };
 
-/// The finest octave of a model [m].
-double finest_octave(const Mesh& mesh, const Params& params) {
-  if (params.resolution > 0) return params.resolution;
-  const double own = params.fraction * geometry::model_diagonal(mesh.points);
-  return params.grid * std::exp2(std::round(std::log2(own / params.grid)));
+constexpr double kGrid = 0.00125;  // [m]; of own resolutions: this times half powers of two
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double round_to_grid(double resolution) {
+  return kGrid * std::exp2(std::round(2 * std::log2(resolution / kGrid)) / 2);
+}
+
+std::vector<double> diagonals_of(const PerObject<Mesh>& meshes) {
+  std::vector<double> diagonals;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    try {
+      diagonals.push_back(geometry::model_diagonal(meshes[i].points));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("model " + std::to_string(i + 1) + " of " +
+                               std::to_string(meshes.size()) + " " + error.what());
+    }
+  }
+  return diagonals;
+}
+
+/// The finest octave of each model [m].
+std::vector<double> finest_octaves(const PerObject<Mesh>& meshes, const Params& params) {
+  if (params.resolution > 0) return std::vector<double>(meshes.size(), params.resolution);
+  std::vector<double> octaves = diagonals_of(meshes);
+  const double mean = mean_of(octaves);
+  for (double& octave : octaves) {
+    octave = params.fraction * (params.own ? octave : mean);
+    octave = std::max(params.finest, params.own ? round_to_grid(octave) : octave);
+  }
+  return octaves;
 }
 
 std::tuple<PerObject<Mesh>, PerObject<Scale>> derive_scale(const PerObject<Mesh>& meshes,
                                                            const Params& params) {
   if (meshes.slots.empty()) throw std::runtime_error("there are no models to derive a scale from");
-  std::vector<double> resolutions;
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    try {
-      resolutions.push_back(finest_octave(meshes[i], params));
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error("model " + std::to_string(i + 1) + " of " +
-                               std::to_string(meshes.size()) + " " + error.what());
-    }
-    while (params.finest > 0 && resolutions.back() < params.finest) resolutions.back() *= 2;
-  }
+  const std::vector<double> finest = finest_octaves(meshes, params);
   PerObject<Mesh> all;
   PerObject<Scale> scales;
-  for (int k = 0; k < (params.resolution > 0 ? 1 : params.octaves); ++k)
+  for (int k = 0; k < params.octaves; ++k)
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       all.slots.push_back(meshes.slots[i]);
       scales.slots.push_back(
-          std::make_shared<const Scale>(Scale{static_cast<float>(std::ldexp(resolutions[i], k))}));
+          std::make_shared<const Scale>(Scale{static_cast<float>(std::ldexp(finest[i], k))}));
     }
   return {std::move(all), std::move(scales)};
 }
@@ -70,17 +92,18 @@ const auto registered =
         .input("meshes")
         .output("octave_meshes")
         .output("octaves")
-        .param("resolution", &Params::resolution, "m",
-               "Voxel edge, by hand, of all models and of the scans: one octave; 0 derives them.",
+        .param("resolution", &Params::resolution, "m", "Voxel edge of the finest; 0 derives it.",
                graph::at_least(0))
         .param("fraction", &Params::fraction, "x diagonal",
-               "About the finest octave, as a share of the model's bounding-box diagonal.",
+               "Derived finest resolution, as a share of the bounding-box diagonal: of the models' "
+               "mean, or of their own.",
                graph::in_range(0.0005, 0.1))
-        .param("finest", &Params::finest, "m", "No octave is finer than this; 0: no limit.",
+        .param("finest", &Params::finest, "m", "Derived resolutions are never finer than this.",
                graph::at_least(0))
-        .param("grid", &Params::grid, "m", "Octaves are this times a power of two.",
-               graph::greater_than(0))
-        .param("octaves", &Params::octaves, "", "How many of them.", graph::in_range(1, 8));
+        .param("own", &Params::own, "",
+               "Whether each model's resolution follows from its own size.")
+        .param("octaves", &Params::octaves, "",
+               "Resolutions of each model, each twice the one before.", graph::in_range(1, 8));
 
 }  // namespace
 }  // namespace posevote::train

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/sensor_noise.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "nodes/geometry/plane_normals.hpp"
+#include "nodes/geometry/voxels.hpp"
+
+namespace posevote::geometry {
+namespace {
+
+constexpr float kWidth = 6;             // x spacing
+constexpr std::size_t kFewest = 12;     // points in a patch
+constexpr std::size_t kPatches = 4000;  // enough for a median
+
+std::optional<Patch> measure(const PointMatrix& points, std::span<const std::uint32_t> members,
+                             const Eigen::Vector3f& viewpoint) {
+  if (members.size() < kFewest) return std::nullopt;
+  const auto count = static_cast<double>(members.size());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const std::uint32_t i : members) mean += points.row(i).transpose().cast<double>();
+  mean /= count;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t i : members) {
+    const Eigen::Vector3d off = points.row(i).transpose().cast<double>() - mean;
+    spread += off * off.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d squares = axes.eigenvalues().cwiseMax(0);
+  Patch patch;
+  patch.range = (mean.cast<float>() - viewpoint).norm();
+  patch.noise = static_cast<float>(std::sqrt(squares(0) / (count - 3)));  // a plane takes three
+  // Points strewn evenly over a rectangle a x b spread by a / sqrt(12) and b / sqrt(12).
+  const double area = 12 * std::sqrt(squares(1) * squares(2)) / count;
+  patch.spacing = static_cast<float>(std::sqrt(area / count));
+  return patch;
+}
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+SensorNoise measure_noise(const PointMatrix& points, const Eigen::Vector3f& viewpoint) {
+  const float spacing = point_spacing(points);
+  if (!(spacing > 0) || !std::isfinite(spacing)) return {};
+  const Voxels voxels = group_by_voxel(points, kWidth * spacing);
+  const std::size_t step = voxels.size() / kPatches + 1;
+  SensorNoise found;
+  std::vector<float> noises, spacings;
+  for (std::size_t v = 0; v < voxels.size(); v += step) {
+    const auto patch = measure(points, voxels[v], viewpoint);
+    if (!patch || !(patch->range > 0)) continue;
+    noises.push_back(patch->noise / (patch->range * patch->range));
+    spacings.push_back(patch->spacing / patch->range);
+    found.ranges.push_back(patch->range);
+  }
+  if (noises.empty()) return found;
+  found.noise_per_square = median(noises);
+  found.spacing_per_range = median(spacings);
+  std::sort(found.ranges.begin(), found.ranges.end());
+  found.median_range = found.ranges[found.ranges.size() / 2];
+  return found;
+}
+
+}  // namespace posevote::geometry
