@@ -189,7 +189,7 @@ class Flattener {
 
   /// The file of what a pipeline extends; "" and a problem where there is none.
   std::string find_base(const Wire& extends) {
-    const std::string base = find_(extends.stream, extends.where.file);
+    std::string base = find_(extends.stream, extends.where.file);
     if (base.empty()) {
       report(extends.where, "extends",
              "no pipeline is called '" + extends.stream + "', expected " + extends.stream +
