@@ -75,16 +75,24 @@ void read_replacements(const Reader& reader, const YAML::Node& nodes, const Loca
 
 void read_insertions(const Reader& reader, const YAML::Node& nodes, const Location& where,
                      Variation& variation) {
+  using Place = Variation::Place;
+  static const std::map<std::string, Place> places{
+      {"after", Place::kAfter}, {"before", Place::kBefore}, {"into", Place::kInto}};
   if (!nodes.IsMap()) return reader.report(where, "insert", "expected a map of nodes");
   reader.for_each(
       nodes, "insert", [&](const std::string& name, const Location& at, const YAML::Node& body) {
-        Placing placing{{"after", {}}, {"before", {}}};
-        NodeDescription node = read_node(reader, name, at, body, &placing);
-        const bool before = !placing["before"].stream.empty();
-        if (before && !placing["after"].stream.empty())
-          reader.report(at, name, "has both `after` and `before`, expected one of them");
-        variation.inserted.push_back(
-            {std::move(node), placing[before ? "before" : "after"], before});
+        Placing placing;
+        for (const auto& place : places) placing[place.first];
+        Variation::Insertion insertion;
+        insertion.node = read_node(reader, name, at, body, &placing);
+        for (const auto& [key, named] : placing) {
+          if (named.stream.empty()) continue;
+          if (!insertion.at.stream.empty())
+            reader.report(at, name, "has more than one of `after`, `before` and `into`");
+          insertion.place = places.at(key);
+          insertion.at = named;
+        }
+        variation.inserted.push_back(std::move(insertion));
       });
 }
 
@@ -181,7 +189,7 @@ class Flattener {
 
   /// The file of what a pipeline extends; "" and a problem where there is none.
   std::string find_base(const Wire& extends) {
-    const std::string base = find_(extends.stream, extends.where.file);
+    std::string base = find_(extends.stream, extends.where.file);
     if (base.empty()) {
       report(extends.where, "extends",
              "no pipeline is called '" + extends.stream + "', expected " + extends.stream +

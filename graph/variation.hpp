@@ -14,10 +14,11 @@ struct Variation {
     Wire replaced;
     NodeDescription node;  ///< stands in its place; may have another name
   };
+  enum class Place { kAtEnd, kBefore, kAfter, kInto };
   struct Insertion {
     NodeDescription node;
-    Wire beside;  ///< empty: at the end
-    bool before = false;
+    Place place = Place::kAtEnd;
+    Wire at;  ///< a node; for kInto a stream, whose readers so far read what this node makes of it
   };
 
   std::vector<Wire> removed;
@@ -27,8 +28,8 @@ struct Variation {
   bool empty() const { return removed.empty() && replaced.empty() && inserted.empty(); }
 };
 
-/// Removes, then replaces, then inserts, each in the order in which it is written. A node that is
-/// not there, and a name that is taken, are problems.
+/// Removes, then replaces, then inserts, each in the order in which it is written. A node or stream
+/// that is not there, and a name that is taken, are problems.
 void vary(PipelineDescription& pipeline, const Variation& variation,
           std::vector<Problem>& problems);
 

@@ -34,8 +34,13 @@ std::string beside(const std::string& name, const std::string& from);
 ///   remove: [estimate_density]
 ///   replace:                        # the node of that name; `name`: what it is called here
 ///     cast_votes: {name: ransac, in: [correspondences, scene_features, scale], out: hypotheses}
-///   insert:                         # `after` or `before` a node; else at the end
-///     smooth: {after: load_scene, in: scan, out: smooth_scan}
+///   insert:                         # `after` or `before` a node, `into` a stream; else at the end
+///     save: {after: load_scene, in: scan}
+///     smooth: {into: scan, out: smooth_scan}
+///
+/// A node that is put into a stream reads it, and whatever read it so far (the pipeline's result,
+/// too) reads what the node makes instead. `in` may name more streams beside; without `out` the new
+/// stream is called like the node. Of two nodes in one stream the one written last reads it first.
 ///
 /// What it returns has no `extends` any more; each node says in which file it stands.
 PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>& problems,

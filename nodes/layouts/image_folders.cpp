@@ -206,8 +206,6 @@ void read_objects(const ImageFolders& names, const fs::path& folder, GroundTruth
                      std::to_string(instance.scene_id) + " holds");
 }
 
-}  // namespace
-
 bool has_scene_files(const ImageFolders& names, const fs::path& dataset, const std::string& split) {
   for (const fs::path& entry : entries_of(dataset / split))
     if (number_of(entry.filename().string()) >= 0 &&
@@ -255,6 +253,23 @@ GroundTruth read_truth(const ImageFolders& names, const fs::path& dataset,
     fail(root, std::string("no true pose in it, expected SCENE/") + names.poses);
   read_objects(names, dataset / "models", truth);
   return truth;
+}
+
+}  // namespace
+
+Layout layout_of(const ImageFolders& names, const std::string& name, const std::string& expected) {
+  Layout layout{name, expected, {}, {}, list_model_files, {}};
+  layout.recognises = [names](const fs::path& dataset, const std::string& split) {
+    return has_scene_files(names, dataset, split) ||
+           fs::exists(dataset / "models" / names.models_info);
+  };
+  layout.scenes = [names](const fs::path& dataset, const std::string& split) {
+    return list_images(names, dataset, split);
+  };
+  layout.truth = [names](const fs::path& dataset, const std::string& split) {
+    return read_truth(names, dataset, split);
+  };
+  return layout;
 }
 
 }  // namespace posevote::layouts

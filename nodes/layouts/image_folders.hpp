@@ -15,12 +15,7 @@ struct ImageFolders {
   nlohmann::json (*read)(const std::filesystem::path& file);
 };
 
-bool has_scene_files(const ImageFolders& names, const std::filesystem::path& dataset,
-                     const std::string& split);
-std::vector<SceneFile> list_images(const ImageFolders& names, const std::filesystem::path& dataset,
-                                   const std::string& split);
-std::vector<std::filesystem::path> list_model_files(const std::filesystem::path& dataset);
-GroundTruth read_truth(const ImageFolders& names, const std::filesystem::path& dataset,
-                       const std::string& split);
+/// The layout that these names make.
+Layout layout_of(const ImageFolders& names, const std::string& name, const std::string& expected);
 
 }  // namespace posevote::layouts

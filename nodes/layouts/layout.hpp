@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,13 @@ namespace posevote::layouts {
 struct Layout {
   std::string name;
   std::string expected;  ///< the files that make the layout
-  bool (*recognises)(const std::filesystem::path& dataset, const std::string& split);
-  std::vector<SceneFile> (*scenes)(const std::filesystem::path& dataset, const std::string& split);
-  std::vector<std::filesystem::path> (*models)(const std::filesystem::path& dataset);
+  std::function<bool(const std::filesystem::path& dataset, const std::string& split)> recognises;
+  std::function<std::vector<SceneFile>(const std::filesystem::path& dataset,
+                                       const std::string& split)>
+      scenes;
+  std::function<std::vector<std::filesystem::path>(const std::filesystem::path& dataset)> models;
   /// Poses and images; objects without their points, which read_ground_truth adds.
-  GroundTruth (*truth)(const std::filesystem::path& dataset, const std::string& split);
+  std::function<GroundTruth(const std::filesystem::path& dataset, const std::string& split)> truth;
 };
 
 /// Throws std::logic_error where another layout has that name. The value means nothing: it lets a

@@ -49,22 +49,8 @@ json read_yaml(const fs::path& file) {
 
 constexpr ImageFolders kNames{"gt.yml", "info.yml", nullptr, "models_info.yml", read_yaml};
 
-bool recognises(const fs::path& folder, const std::string& split) {
-  return has_scene_files(kNames, folder, split) ||
-         fs::exists(folder / "models" / kNames.models_info);
-}
-
-std::vector<SceneFile> scenes(const fs::path& folder, const std::string& split) {
-  return list_images(kNames, folder, split);
-}
-
-GroundTruth truth(const fs::path& folder, const std::string& split) {
-  return read_truth(kNames, folder, split);
-}
-
-const auto registered =
-    register_layout({"SIXD 2017", "models/models_info.yml, SPLIT/NN/{depth, info.yml, gt.yml}",
-                     recognises, scenes, list_model_files, truth});
+const auto registered = register_layout(
+    layout_of(kNames, "SIXD 2017", "models/models_info.yml, SPLIT/NN/{depth, info.yml, gt.yml}"));
 
 }  // namespace
 }  // namespace posevote::layouts

@@ -13,6 +13,7 @@
 
 #include "graph/registry.hpp"
 #include "nodes/data/cloud.hpp"
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::examples {
 namespace {
@@ -43,11 +44,7 @@ Scan crop_box(const Scan& scan, const Params& params) {
   if (inside.empty())
     throw std::runtime_error("none of the scan's " + std::to_string(scan.points.rows()) +
                              " points lies in the box");
-  Scan cropped;
-  cropped.view = scan.view;
-  cropped.points = scan.points(inside, Eigen::all);
-  if (scan.normals.rows() > 0) cropped.normals = scan.normals(inside, Eigen::all);
-  return cropped;
+  return geometry::select_rows(scan, inside);
 }
 
 const auto registered =

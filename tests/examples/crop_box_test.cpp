@@ -31,14 +31,15 @@ TEST_CASE("a variant of the pipeline takes it in", "[examples]") {
   const auto variant = [&](const std::string& low) {
     return folder.write("cropped.yaml",
                         "extends: recognize\n"
-                        "replace:\n"
-                        "  estimate_normals: {in: [cropped, scale], out: oriented_scan}\n"
                         "insert:\n"
-                        "  crop_box: {after: check_size, in: scan, out: cropped, low: " +
+                        "  crop_box: {into: scan, low: " +
                             low + "}\n");
   };
-  CHECK(load_configuration(variant("[-1, -1, 0.2]"), {}).scenes.nodes.size() ==
-        load_configuration("bop", {}).scenes.nodes.size() + 1);
+  const auto cropped = load_configuration(variant("[-1, -1, 0.2]"), {}).scenes;
+  CHECK(cropped.nodes.size() == load_configuration("bop", {}).scenes.nodes.size() + 1);
+  for (const graph::PlannedNode& node : cropped.nodes)
+    for (const int input : node.inputs)
+      CHECK((cropped.streams[std::size_t(input)].name == "scan") == (node.name == "crop_box"));
   CHECK_THROWS_WITH(load_configuration(variant("[-1, -1]"), {}),
                     Catch::Contains("must have three numbers each"));
 }

@@ -94,6 +94,53 @@ TEST_CASE("a variant of a variant", "[extends]") {
   CHECK(f.flat("two").find("halve") == std::string::npos);
 }
 
+TEST_CASE("a node put into a stream is read by all that read the stream", "[extends]") {
+  const Folder f;
+  f.write("variant",
+          "extends: base\n"
+          "insert:\n"
+          "  shift: {node: multiply, into: n, factor: 2}\n"  // comes with the frame
+          "  other: {after: add, node: swallow, in: n}\n"    // written later: the stream itself
+          "  twice: {node: add, into: b, in: [b, a], out: more}\n"  // what a node makes
+          "  last: {node: multiply, into: r}\n"                     // the result
+          "  first: {node: fail_on, into: r, out: checked}\n");
+  CHECK(f.problems_of("variant").empty());
+  CHECK(f.flat("variant") ==
+        "inputs: n\nresult: last\nnodes:\n"
+        "  shift: {node: multiply, in: n, out: shift, factor: 2}\n"
+        "  wait_a_little: {in: shift, out: a}\n"
+        "  times: {node: multiply, in: a, out: b, factor: 3}\n"
+        "  twice: {node: add, in: [b, a], out: more}\n"
+        "  add: {in: {a: a, b: more}, out: r}\n"
+        "  first: {node: fail_on, in: r, out: checked}\n"
+        "  last: {node: multiply, in: checked, out: last}\n"
+        "  other: {node: swallow, in: n}\n"
+        "  swallow: {in: last}\n");
+  f.write("flat", f.flat("variant"));
+  CHECK(f.flat("flat") == f.flat("variant"));
+}
+
+TEST_CASE("what is wrong with a node put into a stream", "[extends]") {
+  const Folder f;
+  const auto check = [&f](const std::string& entry, const std::string& line) {
+    f.check_one("extends: base\ninsert:\n  x: " + entry + "\n", "variant.yaml:3:" + line);
+  };
+  check("{node: multiply, into: m}",
+        "29: m: nothing in the pipeline that this one extends reads such a stream, did you mean "
+        "'n'?");
+  check("{node: multiply, into: nowhere}",
+        "29: nowhere: nothing in the pipeline that this one extends reads such a stream");
+  check("{node: multiply, into: b, in: a}", "29: x: is put into 'b' but does not read it");
+  check("{node: halve, into: b, out: [c, d]}",
+        "26: x: is put into 'b', expected one stream in `out`");
+  check("{node: multiply, into: b, after: add}",
+        "3: x: has more than one of `after`, `before` and `into`");
+  check("{node: multiply, into: [b]}", "29: x.into: expected one plain value");
+  // what comes of another type is said where it is read
+  f.check_one("extends: base\ninsert:\n  x: {node: to_text, into: b}\n",
+              "base.yaml:6:3: add.b: expected test::Number, but node x produces 'x' as test::Text");
+}
+
 TEST_CASE("what is wrong with a variant is said where it stands", "[extends]") {
   const Folder f;
   f.check_one("extends: bse\nremove: [add]\n",
@@ -115,7 +162,7 @@ TEST_CASE("what is wrong with a variant is said where it stands", "[extends]") {
               "variant.yaml:3:3: add: the pipeline has a node of that name, in " +
                   (f.folder / "base.yaml").string() + ":6:3; expected another, or `replace`");
   f.check_one("extends: base\ninsert:\n  x: {after: add, before: add, node: swallow, in: b}\n",
-              "variant.yaml:3:3: x: has both `after` and `before`, expected one of them");
+              "variant.yaml:3:3: x: has more than one of `after`, `before` and `into`");
   f.check_one(
       "extends: base\nnodes:\n  x: {node: swallow, in: b}\n",
       "variant.yaml:1:1: nodes: stand beside `extends`, expected replace, insert and remove");

@@ -2,6 +2,9 @@
 // Small node types for testing the framework, and a way to write a pipeline into a temporary file.
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <atomic>
 #include <string>
 #include <vector>
@@ -26,6 +29,9 @@ extern std::atomic<int> peak_bodies;
 extern std::vector<std::string> logged;
 /// Times `swallow` was called.
 extern std::atomic<int> swallowed;
+
+/// How a pipeline from `n` to `r` begins.
+inline const std::string kHead = "inputs: [n]\nresult: r\nnodes:\n";
 
 using NumberPipeline = graph::Pipeline<Number(Number)>;
 using NumberResult = graph::FrameResult<Number>;
@@ -53,6 +59,14 @@ graph::RunSummary run_numbers(const NumberPipeline& plan, std::size_t count,
                               const graph::RunOptions& options,
                               const std::function<void(const NumberResult&)>& on_result,
                               const graph::Constants& constants = {});
+
+/// Runs in an arena of that many threads, however many cores there are.
+template <class Body>
+void with_threads(int threads, const Body& body) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+  oneapi::tbb::task_arena(threads).execute(body);
+}
 
 inline graph::Constant number(int value) {
   return graph::constant(std::make_shared<const Number>(Number{value}));

@@ -30,8 +30,6 @@ void check_one(const std::string& yaml, const std::string& begin, const std::str
   CHECK(lines[0].find(part) != std::string::npos);
 }
 
-const std::string kHead = "inputs: [n]\nresult: r\nnodes:\n";
-
 }  // namespace
 
 TEST_CASE("a sound pipeline has no problems and runs in an order that feeds every node", "[plan]") {

@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order, back-pressure, failures, cancellation, lifting: whatever enters leaves.
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
+// Order, back-pressure, interrupts, lifting, states: whatever enters leaves.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "tests/graph/number_nodes.hpp"
 
 using namespace posevote;
 using namespace posevote::test;
-
-namespace {
-
-const std::string kHead = "inputs: [n]\nresult: r\nnodes:\n";
-
-/// Runs in an arena of that many threads, however many cores there are.
-template <class Body>
-void with_threads(int threads, const Body& body) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena(threads).execute(body);
-}
-
-}  // namespace
 
 TEST_CASE("results leave in frame order, whatever takes longest", "[runner]") {
   const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
@@ -72,54 +54,6 @@ TEST_CASE("a node may read one stream twice", "[runner]") {
   run_numbers(plan, 5, {}, [&](const auto& result) { CHECK(result.result->value == 2 * next++); });
 }
 
-TEST_CASE("a failing frame leaves as a named failure and the others go on", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead +
-                                      "  fail_on: {in: n, out: a, bad: 3}\n"
-                                      "  multiply: {in: a, out: r}\n"
-                                      "  swallow: {in: r}\n");
-  with_threads(4, [&] {
-    swallowed = 0;
-    std::vector<bool> failed;
-    const auto summary = run_numbers(plan, 9, {}, [&](const auto& result) {
-      failed.push_back(result.failure.has_value());
-      if (!result.failure) return;
-      CHECK(result.failure->node == "fail_on");
-      CHECK(result.failure->what == "met 3");
-      CHECK_FALSE(result.spans[1].ran());
-    });
-    CHECK(failed ==
-          std::vector<bool>{false, false, false, true, false, false, false, false, false});
-    CHECK(summary.done == 8);
-    CHECK(summary.failed == 1);
-    CHECK(swallowed == 8);
-  });
-}
-
-TEST_CASE("what is thrown need not be an exception type", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead + "  fail_on: {in: n, out: r, odd_throw: true}\n");
-  const auto summary = run_numbers(plan, 3, {}, [](const auto& result) {
-    REQUIRE(result.failure);
-    CHECK(result.failure->what == "unknown exception");
-  });
-  CHECK(summary.failed == 3);
-}
-
-TEST_CASE("stop_on_failure reports nothing behind the failed frame, at any thread count",
-          "[runner]") {
-  const NumberPipeline plan = plan_of(kHead + "  fail_on: {in: n, out: r, bad: 5}\n");
-  for (const int threads : {1, 4})
-    with_threads(threads, [&] {
-      graph::RunOptions options;
-      options.stop_on_failure = true;
-      std::size_t reported = 0;
-      const auto summary = run_numbers(plan, 1000, options, [&](const auto&) { ++reported; });
-      CHECK(reported == 6);
-      CHECK(summary.stopped);
-      CHECK(summary.done == 5);
-      CHECK(summary.failed == 1);
-    });
-}
-
 TEST_CASE("an interrupt lets the frames in flight leave", "[runner]") {
   const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
   with_threads(4, [&] {
@@ -139,16 +73,6 @@ TEST_CASE("an interrupt lets the frames in flight leave", "[runner]") {
   });
 }
 
-TEST_CASE("what the receiver throws ends the run and comes out", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
-  CHECK_THROWS_WITH(run_numbers(plan, 1000, {},
-                                [](const auto& result) {
-                                  if (result.context.number == 4)
-                                    throw std::runtime_error("disk full");
-                                }),
-                    "disk full");
-}
-
 TEST_CASE("a node written for one object runs over all of them, slots in order", "[runner]") {
   const NumberPipeline plan = plan_of(kHead +
                                       "  split: {in: n, out: objects}\n"
@@ -160,31 +84,6 @@ TEST_CASE("a node written for one object runs over all of them, slots in order",
     const int n = next++;
     const int expected = 100 * (2 * n + n) + 10 * (2 * (n + 1) + n) + 2 * (n + 2) + n;
     CHECK(result.result->value == expected);
-  });
-}
-
-TEST_CASE("the first failing object names itself", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead +
-                                      "  split: {in: n, out: objects}\n"
-                                      "  fail_on: {in: objects, out: kept, bad: 4}\n"
-                                      "  sum: {in: kept, out: r}\n");
-  std::vector<std::string> what;
-  run_numbers(plan, 6, {}, [&](const auto& result) {
-    if (result.failure) what.push_back(result.failure->what);
-  });
-  CHECK(what == std::vector<std::string>{"object 3: met 4", "object 2: met 4", "object 1: met 4"});
-}
-
-TEST_CASE("a failure knows its object and the cause apart", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead +
-                                      "  split: {in: n, out: objects}\n"
-                                      "  fail_on: {in: objects, out: kept, bad: 4}\n"
-                                      "  sum: {in: kept, out: r}\n");
-  run_numbers(plan, 6, {}, [&](const auto& result) {
-    if (!result.failure) return;
-    REQUIRE(result.failure->object);
-    CHECK(*result.failure->object == 4 - result.context.number);
-    CHECK(result.failure->cause == "met 4");
   });
 }
 
@@ -251,19 +150,6 @@ TEST_CASE("a source need not know how many frames there will be", "[runner]") {
       CHECK(summary.done == 10);
       CHECK_FALSE(summary.stopped);
     });
-}
-
-TEST_CASE("what the source throws ends the run and comes out", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
-  int reported = 0;
-  const auto source = [next = 0]() mutable -> std::optional<graph::Frame<Number>> {
-    if (next == 3) throw std::runtime_error("the sensor is gone");
-    return graph::Frame<Number>{{}, {Number{next++}}};
-  };
-  CHECK_THROWS_WITH(
-      graph::run(plan, {}, source, {}, std::function([&](const NumberResult&) { ++reported; })),
-      "the sensor is gone");
-  CHECK(reported == 3);
 }
 
 TEST_CASE("all objects of a frame may be a pipeline's result", "[runner]") {
@@ -345,38 +231,9 @@ TEST_CASE("a node that runs last knows all stages and every failure, in order", 
     });
 }
 
-TEST_CASE("a node may end the run where no frame could do better", "[runner]") {
-  const NumberPipeline plan = plan_of(kHead +
-                                      "  wait_a_little: {in: n, out: r}\n"
-                                      "  keep_log: {in: r, limit: 5}\n");
-  with_threads(4, [&] {
-    CHECK_THROWS_WITH(run_numbers(plan, 100000, {}, [](const auto&) {}), "the log is full");
-    CHECK(logged.size() == 5);
-  });
-}
-
 TEST_CASE("no frames, and a second run of one plan", "[runner]") {
   const NumberPipeline plan = plan_of(kHead + "  multiply: {in: n, out: r}\n");
   CHECK(run_numbers(plan, 0, {}, [](const auto&) {}).done == 0);
   CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
   CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
-}
-
-TEST_CASE("the trace adds up and is JSON that a viewer opens", "[trace]") {
-  const TemporaryFolder folder;
-  graph::Trace trace({"load", "match"});
-  trace.write_to(folder.path() / "trace.json");
-  trace.add("a", {{0, 2e6, 1}, {2e6, 3e6, 0}});
-  trace.add("b\xff", {{1e6, 2e6, 0}, {}});
-  CHECK(trace.close());
-  CHECK(trace.times()[0].calls == 2);
-  CHECK(trace.times()[0].total == Approx(3));
-  CHECK(trace.times()[0].mean() == Approx(1.5));
-  CHECK(trace.times()[0].max == Approx(2));
-  CHECK(trace.times()[1].calls == 1);
-  std::ifstream file(folder.path() / "trace.json");
-  const auto json = nlohmann::json::parse(file);
-  REQUIRE(json["traceEvents"].size() == 3);
-  CHECK(json["traceEvents"][0]["dur"] == 2e6);
-  CHECK(graph::time_table(trace.times()).find("75.0%") != std::string::npos);
 }

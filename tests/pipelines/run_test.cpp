@@ -1,59 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `posevote run` as users meet it: good and broken scans, wrong configs, caches, shards, Ctrl-C.
-#include <catch2/catch.hpp>
-#include <regex>
-
-#include "tests/support/command.hpp"
+// `posevote run` as users meet it: good and broken scans, shards, outputs, Ctrl-C.
+#include "tests/pipelines/run_world.hpp"
 
 using namespace posevote::test;
-namespace fs = std::filesystem;
-
-namespace {
-
-/// Two models and three scans, made once for all cases of this file.
-struct World {
-  TemporaryFolder folder;
-  fs::path models = folder / "data/models";
-  fs::path scans = folder / "data/scans";
-
-  World() {
-    const std::string spec = folder.write("spec.yaml",
-                                          "seed: 5\n"
-                                          "models:\n"
-                                          "  - {shape: figure, seed: 3, size: 0.2}\n"
-                                          "  - {shape: kettle, seed: 4, size: 0.16}\n"
-                                          "scenes:\n"
-                                          "  - {sensor: rgbd, objects: [1, 2], clutter: 1}\n"
-                                          "  - {sensor: rgbd, objects: [1], clutter: 1}\n"
-                                          "  - {sensor: rgbd, objects: [2], clutter: 1}\n");
-    const CommandResult made =
-        run_posevote(folder, "simulate " + spec + " --out " + (folder / "data").string());
-    INFO(made.output);
-    REQUIRE(made.status == 0);
-  }
-
-  CommandResult run(const std::string& out, const std::string& more) const {
-    return run_posevote(folder, "run demo --models " + models.string() + " --out " +
-                                    (folder / out).string() + " " + more);
-  }
-  std::string scans_argument() const { return "--scenes " + scans.string(); }
-};
-
-const World& world() {
-  static const World the_world;
-  return the_world;
-}
-
-std::string csv(const std::string& out) {
-  return std::regex_replace(read_text(world().folder / (out + "/results.csv")),
-                            std::regex(",[^,\n]*\n"), "\n");
-}
-
-nlohmann::json frames(const std::string& out) {
-  return read_json(world().folder / (out + "/results.json"))["frames"];
-}
-
-}  // namespace
 
 TEST_CASE("broken scans fail by name and the others are answered", "[run]") {
   const World& w = world();
@@ -126,33 +75,6 @@ TEST_CASE("effective.yaml repeats the run, other node types included", "[run]") 
         read_text(w.folder / "fpfh/effective.yaml"));
 }
 
-TEST_CASE("arguments that contradict each other, or no run, end with status 2", "[run]") {
-  const World& w = world();
-  const auto refused = [&w](const std::string& arguments, const std::string& why) {
-    const CommandResult run = run_posevote(w.folder, arguments);
-    INFO(run.output);
-    CHECK(run.status == 2);
-    CHECK(run.output.find(why) != std::string::npos);
-  };
-  const std::string inputs = " --models " + w.models.string() + " " + w.scans_argument() +
-                             " --out " + (w.folder / "refused").string();
-  refused(
-      "run " + (fs::path(POSEVOTE_SOURCE_DIR) / "pipelines/train_models.yaml").string() + inputs,
-      "has no `models`");
-  refused("run demo --library some.library" + inputs, "one of them");
-  refused("run demo --threads 100000" + inputs, "--threads");
-  refused("run demo --seed -1" + inputs, "--seed");
-  refused("run demo --seed 010" + inputs, "--seed");
-  w.folder.write("broken/obj_000007.ply", "ply\n");
-  refused("run demo --models " + (w.folder / "broken").string() + " " + w.scans_argument() +
-              " --out " + (w.folder / "refused").string(),
-          "obj_000007.ply");
-  refused("run " + w.scans.string() + inputs, "is a folder");
-  const std::string two = w.folder.write("two.yaml", "pipeline: recognize\n---\nmore: {x: 1}\n");
-  refused("check " + two, "two.yaml:3:1: starts another YAML document");
-  CHECK(!fs::exists(w.folder / "refused"));
-}
-
 TEST_CASE("the same bytes at any number of threads and tokens", "[run]") {
   const World& w = world();
   REQUIRE(w.run("one", w.scans_argument() + " --threads 1").status == 0);
@@ -210,104 +132,4 @@ TEST_CASE("Ctrl-C ends with what is done written", "[run]") {
   CHECK(done < 200);
   const std::string rows = read_text(out / "results.csv");
   CHECK(rows.back() == '\n');
-}
-
-TEST_CASE("a stale, a damaged and an unwritable cache", "[run]") {
-  const World& w = world();
-  const std::string cache = " --cache " + (w.folder / "own-cache").string();
-  REQUIRE(w.run("cache1", w.scans_argument() + cache).status == 0);
-  std::vector<fs::path> files(fs::directory_iterator(w.folder / "own-cache"), {});
-  REQUIRE(files.size() == 1);
-  REQUIRE(w.run("cache2", w.scans_argument() + cache + " --set describe_models.radius=15").status ==
-          0);
-  CHECK(std::distance(fs::directory_iterator(w.folder / "own-cache"), {}) == 2);
-  std::string bytes = read_text(files[0]);
-  bytes[bytes.size() / 2] ^= 1;
-  std::ofstream(files[0], std::ios::binary) << bytes;
-  const CommandResult damaged = w.run("cache3", w.scans_argument() + cache);
-  CHECK(damaged.status == 0);
-  CHECK(damaged.output.find("trained anew") != std::string::npos);
-  CHECK(csv("cache3") == csv("cache1"));
-  const CommandResult unwritable = w.run("cache4", w.scans_argument() + " --cache /proc/nowhere");
-  CHECK(unwritable.status == 0);
-  CHECK(unwritable.output.find("not cached") != std::string::npos);
-}
-
-TEST_CASE("what another build trained is not taken from the cache", "[run]") {
-  const World& w = world();
-  const fs::path other = w.folder / "other-build";
-  fs::copy_file(POSEVOTE_BINARY, other);
-  std::ofstream(other, std::ios::binary | std::ios::app) << '\n';
-  const std::string run = "run demo --models " + w.models.string() + " " + w.scans_argument() +
-                          " --cache " + (w.folder / "shared-cache").string() + " --out ";
-  const auto libraries_after = [&](const std::string& out, const std::string& program) {
-    REQUIRE(run_posevote(w.folder, run + (w.folder / out).string(), program).status == 0);
-    return std::distance(fs::directory_iterator(w.folder / "shared-cache"), {});
-  };
-  CHECK(libraries_after("build1", POSEVOTE_BINARY) == 1);
-  CHECK(libraries_after("build2", POSEVOTE_BINARY) == 1);
-  CHECK(libraries_after("build3", other) == 2);
-}
-
-TEST_CASE("a trained library, and one that was trained otherwise", "[run]") {
-  const World& w = world();
-  const std::string library = (w.folder / "two.library").string();
-  const CommandResult trained =
-      run_posevote(w.folder, "train demo --models " + w.models.string() + " --out " + library);
-  INFO(trained.output);
-  REQUIRE(trained.status == 0);
-  const std::string run = "run demo --library " + library + " " + w.scans_argument() + " --out ";
-  REQUIRE(run_posevote(w.folder, run + (w.folder / "lib1").string()).status == 0);
-  REQUIRE(w.run("lib2", w.scans_argument()).status == 0);
-  CHECK(csv("lib1") == csv("lib2"));
-  const CommandResult other = run_posevote(
-      w.folder, run + (w.folder / "lib3").string() + " --set describe_models.radius=15");
-  CHECK(other.status == 2);
-  CHECK(other.output.find("two.library") != std::string::npos);
-}
-
-TEST_CASE("nothing runs, and nothing is written, when the call is wrong", "[run]") {
-  const World& w = world();
-  const std::string config = w.folder.write("wrong.yaml",
-                                            "pipeline: recognize\n"
-                                            "load_scene: {unit: miles, unti: mm}\n"
-                                            "cast_votes: {rotations: 0, rotations: 60}\n"
-                                            "estimate_densty: {sigma_t: 0.01}\n"
-                                            "estimate_density: {sigma_t: -1, sigma_r: wide}\n"
-                                            "describe_scene: {radius: 3}\n"
-                                            "match_features: [1]\n");
-  const std::string rest = " --models " + w.models.string() + " " + w.scans_argument() + " --out " +
-                           (w.folder / "no").string();
-  const CommandResult wrong = run_posevote(w.folder, "run " + config + rest);
-  INFO(wrong.output);
-  CHECK(wrong.status == 2);
-  for (const char* line :
-       {":2:20: load_scene.unit: ", ":2:33: load_scene.unti: ", ":3:25: cast_votes.rotations: ",
-        ":3:28: cast_votes.rotations: ", ":4:28: estimate_densty.sigma_t: ",
-        ":5:29: estimate_density.sigma_t: ", ":5:42: estimate_density.sigma_r: ",
-        ":6:26: describe_scene.radius: ", ":7:1: match_features: "})
-    CHECK(wrong.output.find(line) != std::string::npos);
-  const std::string good = "run demo" + rest;
-  for (const std::string& call :
-       {"run nowhere.yaml" + rest, good + " --set nothing", good + " --set a.b=c",
-        std::string("run demo --out ") + (w.folder / "no").string(), good + " --shard 5/2",
-        good + " --on-error maybe", good + " --models /nowhere.ply", good + " --library x",
-        std::string("fly")}) {
-    const CommandResult run = run_posevote(w.folder, call);
-    INFO(call << "\n" << run.output);
-    CHECK(run.status == 2);
-    CHECK(run.output.size() > 10);
-  }
-  CHECK_FALSE(fs::exists(w.folder / "no"));
-}
-
-TEST_CASE("wrong units fail the frame by name", "[run]") {
-  const World& w = world();
-  const CommandResult run = w.run("units", w.scans_argument() + " --set load_models.unit=m");
-  INFO(run.output);
-  CHECK(run.status == 1);
-  const nlohmann::json failures = read_json(w.folder / "units/failures.json");
-  REQUIRE(failures.size() == 3);
-  CHECK(failures[0]["node"] == "check_size");
-  CHECK(failures[0]["what"].get<std::string>().find("unit") != std::string::npos);
 }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "nodes/formats/format.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;
@@ -29,8 +30,9 @@ TEST_CASE("an argument that matches nothing is named", "[inputs]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(list_scenes({"/nowhere/x.ply"}),
                     Catch::Contains("/nowhere/x.ply: no such file"));
-  CHECK_THROWS_WITH(list_scenes({folder.path().string()}),
-                    Catch::Contains("no .obj, .off, .pcd, .ply, .png or .stl file"));
+  CHECK_THROWS_WITH(
+      list_scenes({folder.path().string()}),
+      Catch::Contains("no " + formats::list_endings(formats::Wanted::kAny) + " file"));
   CHECK_THROWS_WITH(list_models({"/nowhere/*.ply"}), Catch::Contains("/nowhere/*.ply"));
 }
 
@@ -62,8 +64,9 @@ TEST_CASE("a folder of models may hold their textures, a folder of scans depth i
   CHECK(list_models({folder.path().string()}).size() == 1);
   CHECK(list_scenes({folder.path().string()}).size() == 2);
   std::filesystem::remove(folder / "chef.obj");
-  CHECK_THROWS_WITH(list_models({folder.path().string()}),
-                    Catch::Contains("no .obj, .off, .pcd, .ply or .stl file in it"));
+  CHECK_THROWS_WITH(
+      list_models({folder.path().string()}),
+      Catch::Contains("no " + formats::list_endings(formats::Wanted::kMeshes) + " file in it"));
 }
 
 TEST_CASE("a BOP split gives images with their cameras", "[inputs]") {
