@@ -44,6 +44,11 @@ struct FeatureSet {
   std::vector<Octave> octaves;
 };
 
+/// Whether two octaves are of one scale.
+inline bool same_scale(const Octave& a, float resolution) {
+  return a.resolution == resolution || a.resolution == 0 || resolution == 0;
+}
+
 /// The octaves, of which there always is one.
 inline std::vector<Octave> octaves_of(const FeatureSet& features) {
   if (!features.octaves.empty()) return features.octaves;

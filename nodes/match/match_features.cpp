@@ -62,7 +62,7 @@ PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLi
   for (std::size_t i = 0; i < matches.size(); ++i) matches[i].model = library.models[i];
   for (const Octave& rows : octaves_of(scene))
     for (const LibraryOctave& octave : library.octaves)
-      if (octave.resolution == rows.resolution) match_octave(scene, rows, octave, params, matches);
+      if (same_scale(rows, octave.resolution)) match_octave(scene, rows, octave, params, matches);
   PerObject<Correspondences> correspondences;
   for (Correspondences& votes : matches)
     correspondences.slots.push_back(std::make_shared<const Correspondences>(std::move(votes)));

@@ -31,7 +31,7 @@ std::vector<Octave> voters_for(const Model& model, const FeatureSet& scene_featu
   std::vector<Octave> voters = octaves_of(scene_features);
   std::erase_if(voters, [&](const Octave& rows) {
     return std::none_of(octaves.begin(), octaves.end(),
-                        [&](const Octave& octave) { return octave.resolution == rows.resolution; });
+                        [&](const Octave& octave) { return same_scale(octave, rows.resolution); });
   });
   return voters;
 }

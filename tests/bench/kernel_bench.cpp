@@ -129,8 +129,8 @@ void match(benchmark::State& state, const std::string& search) {
   auto model = std::make_shared<Model>();
   model->cloud = setting().model.cloud;
   model->features = setting().model.features;
-  ModelLibrary library{{model}, {kResolution}, nullptr};
-  library.index = descriptors::index_of(library.models, {search});
+  const std::vector<std::shared_ptr<const Model>> models{model};
+  const ModelLibrary library{models, descriptors::index_octaves(models, {search})};
   for (auto _ : state)
     benchmark::DoNotOptimize(run_node<PerObject<Correspondences>>(
         "match_features", {}, setting().scan.features, library));

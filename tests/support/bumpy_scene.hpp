@@ -90,7 +90,7 @@ inline Cloud bumpy_cloud(int shape, float spacing, double roll = 0) {
 inline FeatureSet features_of(const Cloud& cloud, Eigen::Index step = 6) {
   const auto rows = Eigen::seqN(0, cloud.points.rows() / step, step);
   Cloud some = geometry::select_rows(cloud, rows);
-  return {std::move(some.points), std::move(some.normals), {}, {}};
+  return {std::move(some.points), std::move(some.normals), {}, {}, {}};
 }
 
 /// A model whose feature points are every fourth point of its cloud.

@@ -27,10 +27,11 @@ void check_inputs(const graph::NodeSpec& spec) {
                                   spec.inputs[i].type.name + ", not a " + given[i].name);
 }
 
-/// Returns the node's output. Throws std::invalid_argument for an unknown node or parameter, inputs
-/// of other types than the node's, or a value that is out of range, and whatever the node throws.
-template <class Out, class... In>
-Out run_node(const std::string& name, const std::map<std::string, std::string>& values, In... in) {
+/// All outputs of a node. Throws std::invalid_argument for an unknown node or parameter, inputs of
+/// other types than the node's, or a value that is out of range, and whatever the node throws.
+template <class... In>
+std::vector<graph::Value> run_outputs(const std::string& name,
+                                      const std::map<std::string, std::string>& values, In... in) {
   const graph::NodeSpec* spec = graph::find_node(name);
   if (!spec) throw std::invalid_argument("no node is called " + name);
   check_inputs<In...>(*spec);
@@ -46,8 +47,13 @@ Out run_node(const std::string& name, const std::map<std::string, std::string>& 
     if (!known) throw std::invalid_argument(name + " has no parameter " + key);
   }
   const std::vector<graph::Value> inputs{graph::StreamTraits<In>::wrap(std::move(in))...};
-  const std::vector<graph::Value> outputs = spec->call(inputs, graph::FrameContext{}, params.get());
-  return Out(graph::StreamTraits<Out>::unwrap(outputs.at(0)));
+  return spec->call(inputs, graph::FrameContext{}, params.get());
+}
+
+/// The node's first output.
+template <class Out, class... In>
+Out run_node(const std::string& name, const std::map<std::string, std::string>& values, In... in) {
+  return Out(graph::StreamTraits<Out>::unwrap(run_outputs(name, values, std::move(in)...).at(0)));
 }
 
 }  // namespace posevote::test

@@ -36,7 +36,7 @@ std::string message(const std::function<void()>& run) {
 PerObject<PpfModel> train(const std::vector<std::shared_ptr<const Model>>& models,
                           const std::string& sampling = "0.1") {
   return run_node<PerObject<PpfModel>>("train_opencv_ppf", {{"sampling", sampling}},
-                                       ModelLibrary{models, Scale{kResolution}, nullptr});
+                                       ModelLibrary{models, {}});
 }
 
 Hypotheses find(const PpfModel& trained, const FeatureSet& features) {

@@ -71,7 +71,7 @@ TEST_CASE("the descriptor that tells a point best matches it", "[match]") {
   Model fused = *library.models[0];
   fused.features = model;
   library.models[0] = std::make_shared<const Model>(std::move(fused));
-  library.index = descriptors::index_of(library.models, {});
+  library.octaves = descriptors::index_octaves(library.models, {});
   FeatureSet scene = features_at({1.01F});
   scene.descriptors.conservativeResize(1, 2);
   scene.descriptors(0, 1) = 21;

@@ -74,7 +74,8 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   REQUIRE(loaded);
   library::save_library(*loaded, folder / "b", kKey);
   CHECK(read_text(folder / "a") == read_text(folder / "b"));
-  CHECK(loaded->scale.resolution == library.scale.resolution);
+  REQUIRE(loaded->octaves.size() == 1);
+  CHECK(loaded->octaves[0].resolution == library.octaves[0].resolution);
   REQUIRE(loaded->models.size() == 3);
   CHECK(loaded->models[2]->name == "m9");
   CHECK(loaded->models[2]->obj_id == 9);
@@ -90,8 +91,8 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   CHECK(symmetry.carried_off == std::vector<std::uint32_t>{0, 2});
   CHECK(symmetry.uncovered == std::vector<std::uint32_t>{1});
   const DescriptorMatrix queries = features_at({3, 33, 77}).descriptors;
-  const auto before = library.index->nearest_two(queries);
-  const auto after = loaded->index->nearest_two(queries);
+  const auto before = library.octaves[0].index->nearest_two(queries);
+  const auto after = loaded->octaves[0].index->nearest_two(queries);
   for (std::size_t i = 0; i < 3; ++i) {
     CHECK(before[i].row[0] == after[i].row[0]);
     CHECK(before[i].squared[1] == after[i].squared[1]);
@@ -106,9 +107,9 @@ TEST_CASE("how a library is searched is kept in its file", "[match]") {
   std::string why_not;
   const auto loaded = library::load_library(folder / "a", kKey, why_not);
   REQUIRE(loaded);
-  CHECK(loaded->index->options().trees == 3);
-  CHECK(loaded->index->options().checks == 99);
-  CHECK_FALSE(loaded->index->reproducible());
+  CHECK(loaded->octaves[0].index->options().trees == 3);
+  CHECK(loaded->octaves[0].index->options().checks == 99);
+  CHECK_FALSE(loaded->octaves[0].index->reproducible());
 }
 
 TEST_CASE("any damaged byte and any missing end is noticed", "[match]") {
@@ -200,10 +201,12 @@ TEST_CASE("search options that are out of range are refused, whatever the search
 
 TEST_CASE("a library that is not sound is not written", "[match]") {
   ModelLibrary library = example();
-  library.index = nullptr;
+  library.octaves.clear();
   CHECK_THROWS_WITH(library::encode_library(library), Catch::Contains("no index"));
   library = example();
-  library.scale.resolution = 0;
+  Model flat = *library.models[0];
+  flat.resolution = 0;
+  library.models[0] = std::make_shared<const Model>(std::move(flat));
   CHECK_THROWS_WITH(library::encode_library(library), Catch::Contains("the resolution is 0"));
 }
 
@@ -215,7 +218,7 @@ TEST_CASE("fused features come back with their blocks", "[match]") {
     fused.features.blocks = {1, 2};
     model = std::make_shared<const Model>(std::move(fused));
   }
-  library.index = descriptors::index_of(library.models, {});
+  library.octaves = descriptors::index_octaves(library.models, {});
   std::string payload = library::encode_library(library);
   CHECK(library::decode_library(payload).models[1]->features.blocks == descriptors::Blocks{1, 2});
   const std::uint32_t width =

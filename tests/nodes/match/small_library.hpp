@@ -41,6 +41,7 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
   PerObject<FeatureSet> features;
   PerObject<NearSymmetries> near_symmetries;
   PerObject<Outline> outlines;
+  PerObject<Scale> octaves;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int id = obj_ids.empty() ? static_cast<int>(i) + 1 : obj_ids[i];
     files.push_back({"m" + std::to_string(id) + ".ply", id, "m" + std::to_string(id)});
@@ -51,9 +52,10 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
     near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(NearSymmetries{
         {{Eigen::Isometry3d(Eigen::AngleAxisd(id, Eigen::Vector3d::UnitZ())), {0, 2}, {1}}}}));
     outlines.slots.push_back(std::make_shared<const Outline>(Outline{0.01F, {1, 2, 4}}));
+    octaves.slots.push_back(std::make_shared<const Scale>(Scale{0.002F}));
   }
   return run_node<ModelLibrary>("assemble_library", params, files, meshes, clouds, features,
-                                near_symmetries, outlines, Scale{0.002F});
+                                near_symmetries, outlines, octaves);
 }
 
 }  // namespace posevote::test

@@ -49,7 +49,7 @@ TEST_CASE("consensus is the share of the features there that had voted", "[poses
   const SoughtBody body({kBody});
   poses::Sought sought = body.sought();
   const auto features = static_cast<double>(
-      body.scan.count_explained(body.model, beside(0), sought.params.tolerance));
+      body.scan.count_explained(body.model, beside(0), sought.params.tolerance, sought.voters));
   REQUIRE(features > 50);
   sought.votes_per_correspondence = 60;
   CHECK(poses::consensus(sought, body.candidate(beside(0), 2 * features)) == 1);

@@ -15,12 +15,19 @@ PerObject<T> one_empty() {
   return list;
 }
 
+PerObject<Scale> one_octave() {
+  PerObject<Scale> list;
+  list.slots = {std::make_shared<const Scale>(Scale{0.002F})};
+  return list;
+}
+
 }  // namespace
 
 TEST_CASE("a library holds the models by obj_id, with centre and diagonal of the mesh", "[match]") {
   const ModelLibrary library = make_library({{1, 2}, {3}, {4}}, {}, {7, 2, 5});
   REQUIRE(library.models.size() == 3);
-  CHECK(library.scale.resolution == 0.002F);
+  CHECK(library.octaves.at(0).resolution == 0.002F);
+  CHECK(library.models[0]->resolution == 0.002F);
   CHECK(library.models[0]->obj_id == 2);
   CHECK(library.models[0]->name == "m2");
   CHECK(library.models[1]->obj_id == 5);
@@ -40,7 +47,7 @@ TEST_CASE("the centre is that of the mesh, not of the sampled cloud", "[match]")
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   const auto library = run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
                                               mesh, cloud, features, one_empty<NearSymmetries>(),
-                                              one_empty<Outline>(), Scale{0.002F});
+                                              one_empty<Outline>(), one_octave());
   CHECK(library.models[0]->center.isApprox(Eigen::Vector3f(1, 0.5F, 0.5F)));
   CHECK(library.models[0]->cloud.points == cloud[0].points);
 }
@@ -52,13 +59,13 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
   CHECK_THROWS_WITH(
       run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
                              PerObject<Mesh>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
-                             PerObject<NearSymmetries>{}, PerObject<Outline>{}, Scale{1}),
-      Catch::Contains("1 model files, but 0 meshes"));
+                             PerObject<NearSymmetries>{}, PerObject<Outline>{}, one_octave()),
+      Catch::Contains("1 model files in 1 octaves, but 0 results"));
   PerObject<FeatureSet> features;
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
   CHECK_THROWS_WITH(
       run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
                              one_empty<Mesh>(), one_empty<Cloud>(), features,
-                             one_empty<NearSymmetries>(), one_empty<Outline>(), Scale{1}),
+                             one_empty<NearSymmetries>(), one_empty<Outline>(), one_octave()),
       Catch::Contains("a.ply: has no points"));
 }

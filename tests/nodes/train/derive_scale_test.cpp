@@ -12,11 +12,28 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-float derived(const std::vector<Mesh>& models,
-              const std::map<std::string, std::string>& params = {}) {
+struct Derived {
+  PerObject<Mesh> meshes;
+  std::vector<float> resolutions;
+};
+
+Derived derive(const std::vector<Mesh>& models,
+               const std::map<std::string, std::string>& params = {}) {
   PerObject<Mesh> meshes;
   for (const Mesh& mesh : models) meshes.slots.push_back(std::make_shared<const Mesh>(mesh));
-  return test::run_node<Scale>("derive_scale", params, std::move(meshes)).resolution;
+  const auto outputs = test::run_outputs("derive_scale", params, std::move(meshes));
+  Derived derived{graph::StreamTraits<PerObject<Mesh>>::unwrap(outputs.at(0)), {}};
+  const auto scales = graph::StreamTraits<PerObject<Scale>>::unwrap(outputs.at(1));
+  for (const auto& slot : scales.slots) derived.resolutions.push_back(slot->resolution);
+  return derived;
+}
+
+float derived(const std::vector<Mesh>& models,
+              const std::map<std::string, std::string>& params = {}) {
+  const std::vector<float> all = derive(models, params).resolutions;
+  REQUIRE(all.size() == models.size());
+  for (const float one : all) CHECK(one == all[0]);
+  return all[0];
 }
 
 }  // namespace
@@ -36,18 +53,32 @@ TEST_CASE("derive_scale is never finer than the finest, unless it is given", "[p
   CHECK(derived({tiny}, {{"resolution", "0.002"}}) == Approx(0.002));
 }
 
-TEST_CASE("derive_scale refuses models that have no size", "[prepare]") {
-  const Mesh good = test::box({0, 0, 0}, 0.1F);
-  CHECK_THROWS_WITH(derived({}), Contains("no models"));
-  CHECK_THROWS_WITH(derived({good, Mesh{}}), Contains("model 2 of 2 has 0 points"));
-  Mesh point;
-  point.points = PointMatrix::Ones(3, 3);
-  CHECK_THROWS_WITH(derived({point}), Contains("no extent"));
-  CHECK(derived({}, {{"resolution", "0.002"}}) == Approx(0.002));
+TEST_CASE("an own scale follows from the object's size, whatever the others", "[prepare]") {
+  const Mesh small = test::box({5, 0, 0}, 0.1F);  // 0.006 x its diagonal: 1.04 mm
+  const Mesh large = test::box({0, 0, 7}, 0.3F);  // 3.12 mm
+  const auto own = [](const std::vector<Mesh>& models) {
+    return derive(models, {{"own", "true"}}).resolutions;
+  };
+  CHECK(own({small, large}) == std::vector<float>{own({small})[0], own({large})[0]});
+  CHECK(own({small})[0] == Approx(0.00125 / std::sqrt(2)));
+  CHECK(own({large})[0] == Approx(0.0025 * std::sqrt(2)));
 }
 
-TEST_CASE("library_scale hands on the library's scale", "[prepare]") {
-  ModelLibrary library;
-  library.scale.resolution = 0.00175F;
-  CHECK(test::run_node<Scale>("library_scale", {}, library).resolution == 0.00175F);
+TEST_CASE("octaves double the resolution, all models at one before the next", "[prepare]") {
+  const Mesh a = test::box({0, 0, 0}, 0.1F), b = test::box({1, 0, 0}, 0.2F);
+  const Derived all = derive({a, b}, {{"octaves", "3"}, {"resolution", "0.001"}});
+  CHECK(all.resolutions == std::vector<float>{0.001F, 0.001F, 0.002F, 0.002F, 0.004F, 0.004F});
+  REQUIRE(all.meshes.size() == 6);
+  CHECK(all.meshes[4].points == a.points);
+  CHECK(all.meshes[5].points == b.points);
+}
+
+TEST_CASE("derive_scale refuses models that have no size", "[prepare]") {
+  const Mesh good = test::box({0, 0, 0}, 0.1F);
+  CHECK_THROWS_WITH(derive({}), Contains("no models"));
+  CHECK_THROWS_WITH(derive({good, Mesh{}}), Contains("model 2 of 2 has 0 points"));
+  Mesh point;
+  point.points = PointMatrix::Ones(3, 3);
+  CHECK_THROWS_WITH(derive({point}), Contains("no extent"));
+  CHECK(derived({point}, {{"resolution", "0.002"}}) == Approx(0.002));
 }

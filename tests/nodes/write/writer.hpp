@@ -46,7 +46,7 @@ inline ModelLibrary make_library() {
   model->cloud = make_patch(31, 0.002F, 0);
   ModelLibrary library;
   library.models = {model};
-  library.scale.resolution = 0.002F;
+  library.octaves.push_back({0.002F, nullptr, {}});
   return library;
 }
 
