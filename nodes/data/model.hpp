@@ -56,11 +56,19 @@ struct Model {
   Outline outline;
 };
 
+/// A model that could not be trained.
+struct LeftOutModel {
+  std::string name;
+  int obj_id = 1;
+  std::string why;  ///< "node: cause"
+};
+
 /// All models of a run. Matching searches one index that holds every model's descriptors.
 struct ModelLibrary {
   std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id
   Scale scale;
   std::shared_ptr<const descriptors::DescriptorIndex> index;
+  std::vector<LeftOutModel> left_out;  ///< asked for, but not here
 };
 
 /// The model of that obj_id, or null.
