@@ -68,7 +68,7 @@ struct ModelLibrary {
   std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id
   Scale scale;
   std::shared_ptr<const descriptors::DescriptorIndex> index;
-  std::vector<LeftOutModel> left_out;  ///< asked for, but not here
+  std::vector<LeftOutModel> left_out{};  ///< asked for, but not here
 };
 
 /// The model of that obj_id, or null.
