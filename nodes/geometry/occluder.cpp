@@ -22,8 +22,10 @@ struct Occluder::Scene {
   float near = 0;
 
   Scene() {
-    // One instruction set for all machines: the same rounding, the same library.
-    device = rtcNewDevice("isa=sse2,threads=1");
+    // One instruction set for all machines: the same rounding, the same library. No number of
+    // threads: Embree would limit that of the whole process by it (tbb::global_control), down to none
+    // for the flow graph.
+    device = rtcNewDevice("isa=sse2");
     if (device) scene = rtcNewScene(device);
     check("starting Embree");
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between triangles
