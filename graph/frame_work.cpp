@@ -117,8 +117,8 @@ void FrameWork::attempt(std::size_t i, FrameState& state, const Work& work) {
   } catch (const EndOfRun&) {
     if (in_order(plan_.nodes[i])) closed_[i] = true;  // others run on several threads
     throw;
-  } catch (const ObjectError& error) {
-    state.failures[i] = {name, error.what(), error.object, error.cause};
+  } catch (const ObjectErrors& error) {
+    state.failures[i] = {name, error.what(), error.objects};
   } catch (const std::exception& error) {
     state.failures[i] = {name, reason_of(error)};
   } catch (...) {

@@ -45,8 +45,13 @@ std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>
       errors[object] = reason_of(error);
     }
   });
+  std::vector<ObjectFailure> failed;
   for (std::size_t object = 0; object < count; ++object)
-    if (errors[object]) throw ObjectError(object, *errors[object]);
+    if (errors[object]) failed.push_back({object, *errors[object]});
+  if (!failed.empty()) {
+    const std::string first = std::to_string(failed[0].object + 1);
+    throw ObjectErrors(failed, "object " + first + ": " + failed[0].cause);
+  }
   std::vector<Value> values;
   for (Slots& slots : outputs) values.push_back(std::make_shared<const Slots>(std::move(slots)));
   return values;

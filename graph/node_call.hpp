@@ -3,7 +3,6 @@
 #pragma once
 
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,20 +13,9 @@ namespace posevote::graph {
 /// What to tell of an exception; "out of memory" for std::bad_alloc.
 std::string reason_of(const std::exception& error);
 
-/// What a node threw for one of the objects; what() begins with "object I: ", counted from 1.
-class ObjectError : public std::runtime_error {
- public:
-  ObjectError(std::size_t object_index, const std::string& reason)
-      : std::runtime_error("object " + std::to_string(object_index + 1) + ": " + reason),
-        object(object_index),
-        cause(reason) {}
-
-  std::size_t object;  ///< counted from 0
-  std::string cause;
-};
-
 /// Returns a value for each output of the node's type. `state`: for a node that keeps one. Throws
-/// what the node throws; of several failing objects, the first one's exception, as an ObjectError.
+/// what the node throws; a lifted one ObjectErrors, whose what() is "object I: ", counted from 1,
+/// and why the first of them failed.
 std::vector<Value> call_node(const PlannedNode& node, const std::vector<Value>& inputs,
                              const FrameContext& context, void* state = nullptr);
 

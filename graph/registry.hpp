@@ -56,13 +56,26 @@ struct FrameContext {
   std::vector<Stage> stages{};   ///< the other nodes, in the plan's order; for one that runs last
 };
 
+/// An object of a frame that failed, from 0, and why.
+struct ObjectFailure {
+  std::size_t object = 0;
+  std::string cause;
+};
+
 /// Why a frame has no result.
 struct Failure {
   std::string node;
   std::string what;
-  /// Of a node that runs once for each object: which failed, from 0, and why, without its number.
-  std::optional<std::size_t> object = std::nullopt;
-  std::string cause{};
+  std::vector<ObjectFailure> objects{};  ///< where it is the fault of some of them
+};
+
+/// What a node throws where it can say which objects failed.
+class ObjectErrors : public std::runtime_error {
+ public:
+  ObjectErrors(std::vector<ObjectFailure> which, const std::string& message)
+      : std::runtime_error(message), objects(std::move(which)) {}
+
+  std::vector<ObjectFailure> objects;  ///< in ascending order; one or more
 };
 
 /// What a node throws where no other frame could do better, as for a full disk: it ends the run and

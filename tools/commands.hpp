@@ -34,7 +34,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
 struct TrainCommand {
   std::string config;
   std::vector<std::string> models, set;
-  std::string out;
+  std::string out, on_error = "skip";
 };
 int train_command(const TrainCommand& command);
 

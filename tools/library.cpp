@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 
 #include "graph/runner.hpp"
@@ -26,37 +27,90 @@ std::string parameters_with_names(const Configuration& configuration, const Mode
   return text;
 }
 
-/// The graph numbers the objects of a node that runs once for each; whoever reads it wants the
-/// file.
+/// The cause by the model's number. The graph numbers the objects of a node that runs once for each:
+/// behind derive_scale these are the models, octave after octave.
+std::map<std::size_t, std::string> causes_of(const graph::Failure& failure, std::size_t models) {
+  std::map<std::size_t, std::string> causes;
+  for (const graph::ObjectFailure& failed : failure.objects)
+    causes.emplace(failed.object % models, failed.cause);
+  return causes;
+}
+
+/// Whoever reads it wants the file.
 std::string message(const graph::Failure& failure, const ModelFiles& models) {
-  if (!failure.object || *failure.object >= models.size())
-    return failure.node + ": " + failure.what;
-  return failure.node + ": " + models[*failure.object].path.string() + ": " + failure.cause;
+  if (failure.objects.empty()) return failure.node + ": " + failure.what;
+  std::string text = failure.node;
+  const char* before = ": ";
+  for (const auto& [model, cause] : causes_of(failure, models.size())) {
+    text += before + models[model].path.string() + ": " + cause;
+    before = "; ";
+  }
+  return text;
+}
+
+/// Moves the models that failed from the one list to the other.
+void leave_out(const graph::Failure& failure, ModelFiles& models,
+               std::vector<LeftOutModel>& left_out) {
+  const std::map<std::size_t, std::string> causes = causes_of(failure, models.size());
+  ModelFiles kept;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto failed = causes.find(i);
+    if (failed == causes.end())
+      kept.push_back(models[i]);
+    else
+      left_out.push_back({models[i].name, models[i].obj_id,
+                          models[i].path.string() + ": " + failure.node + ": " + failed->second});
+  }
+  models = std::move(kept);
+}
+
+std::string all_failed(const std::vector<LeftOutModel>& left_out) {
+  std::string text = "no model can be used";
+  for (const LeftOutModel& model : left_out) text += "; " + model.why;
+  return text;
 }
 
 }  // namespace
 
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
-                                          const ModelFiles& models) {
-  const auto result = graph::run_one(configuration.models, {}, {{}, {models}});
-  if (result.failure) throw std::runtime_error(message(*result.failure, models));
-  return result.result;
+                                          const ModelFiles& models, BadModels bad) {
+  ModelFiles sound = models;
+  std::vector<LeftOutModel> left_out;
+  for (;;) {
+    const auto result = graph::run_one(configuration.models, {}, {{}, {sound}});
+    if (!result.failure) {
+      if (left_out.empty()) return result.result;
+      auto library = std::make_shared<ModelLibrary>(*result.result);
+      library->left_out = std::move(left_out);
+      return library;
+    }
+    if (bad == BadModels::kStop || result.failure->objects.empty())
+      throw std::runtime_error(message(*result.failure, sound));
+    leave_out(*result.failure, sound, left_out);
+    if (sound.empty()) throw std::runtime_error(all_failed(left_out));
+  }
+}
+
+void tell_left_out(const ModelLibrary& library) {
+  for (const LeftOutModel& model : library.left_out)
+    spdlog::error("the model {} (obj_id {}) is left out: {}", model.name, model.obj_id, model.why);
 }
 
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
-                                                   const ModelFiles& models,
-                                                   const fs::path& folder) {
+                                                   const ModelFiles& models, const fs::path& folder,
+                                                   BadModels bad) {
   std::vector<fs::path> files{kThisProgram};
   for (const ModelFile& model : models) files.push_back(model.path);
   const std::string key = library::hash_files(files, parameters_with_names(configuration, models));
   const fs::path file = folder / (key + ".library");
   if (fs::exists(file)) {
     std::string why_not;
-    if (auto library = library::load_library(file, key, why_not))
+    auto library = library::load_library(file, key, why_not);
+    if (library && (bad == BadModels::kLeaveOut || library->left_out.empty()))
       return std::make_shared<const ModelLibrary>(std::move(*library));
-    spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
+    if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
   }
-  auto library = train(configuration, models);
+  auto library = train(configuration, models, bad);
   try {
     fs::create_directories(folder);
     library::save_library(*library, file, key);

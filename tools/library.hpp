@@ -11,16 +11,31 @@
 
 namespace posevote {
 
-/// Runs the models' plan. Throws std::runtime_error "node: what" if it fails.
+/// What to do about a model that cannot be read or trained.
+enum class BadModels { kStop, kLeaveOut };
+
+/// "stop" or "skip", as the command line has it.
+inline BadModels bad_models(const std::string& on_error) {
+  return on_error == "stop" ? BadModels::kStop : BadModels::kLeaveOut;
+}
+
+/// Runs the models' plan. Without the models that are left out the library is as if they had not
+/// been asked for, but for their names: training begins anew. Throws std::runtime_error "node:
+/// what" if it fails, or no model is left.
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
-                                          const ModelFiles& models);
+                                          const ModelFiles& models,
+                                          BadModels bad = BadModels::kStop);
+
+/// Names on standard error the models that are left out.
+void tell_left_out(const ModelLibrary& library);
 
 /// The library from `folder` if one for exactly these model bytes and parameters, by this build of
 /// the program, is there, else trains it and puts it there. A damaged file is trained anew, with a
 /// warning; a folder that cannot be written costs a warning.
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models,
-                                                   const std::filesystem::path& folder);
+                                                   const std::filesystem::path& folder,
+                                                   BadModels bad = BadModels::kStop);
 
 /// Where libraries are cached unless --cache says otherwise: $XDG_CACHE_HOME/posevote or
 /// ~/.cache/posevote.

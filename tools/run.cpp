@@ -50,7 +50,8 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
                                                  const Configuration& configuration) {
   if (command.library.empty())
     return cached_library(configuration, find_models(command),
-                          command.cache.empty() ? default_cache() : fs::path(command.cache));
+                          command.cache.empty() ? default_cache() : fs::path(command.cache),
+                          bad_models(command.on_error));
   if (!command.models.empty())
     throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
   std::string why_not;
@@ -94,14 +95,14 @@ bool writes_results(const Configuration& configuration) {
 
 /// Makes the files for the results and leaves out the scans that an earlier run answered.
 void begin_run(const RunCommand& command, const Configuration& configuration,
-               std::vector<SceneEntry>& scenes) {
+               const ModelLibrary& library, std::vector<SceneEntry>& scenes) {
   if (!writes_results(configuration)) {
     spdlog::warn("{}: no write_results in the pipeline: no results.csv is written",
                  configuration.pipeline);
     return fs::create_directories(command.out), void();
   }
   const std::set<std::size_t> answered =
-      formats::begin_results(command.out, command.resume, files_of(scenes));
+      formats::begin_results(command.out, command.resume, files_of(scenes), library.left_out);
   std::erase_if(scenes, [&](const SceneEntry& scene) { return answered.contains(scene.number); });
   if (!answered.empty()) spdlog::info("{} frames are answered already", answered.size());
 }
@@ -172,9 +173,9 @@ graph::RunSummary run_scenes(const RunCommand& command, const Configuration& con
   return summary;
 }
 
-int exit_status(const graph::RunSummary& summary, bool interrupted) {
+int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, bool interrupted) {
   if (interrupted) return 130;
-  return summary.failed > 0 || summary.stopped ? 1 : 0;
+  return summary.failed > 0 || summary.stopped || !library.left_out.empty() ? 1 : 0;
 }
 
 }  // namespace
@@ -189,6 +190,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   std::vector<SceneEntry> scenes = take_shard(find_scenes(command), command.shard);
   if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
   const auto library = as_arguments([&] { return find_library(command, configuration); });
+  tell_left_out(*library);
   if (!library->octaves.front().index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
 
@@ -196,7 +198,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
   if (command.resume) check_same_run(effective, description);
-  as_arguments([&] { return begin_run(command, configuration, scenes); });
+  as_arguments([&] { return begin_run(command, configuration, *library, scenes); });
   // A resumed run has it; a full disk must not take it.
   if (!command.resume || !fs::exists(effective))
     as_arguments([&] { write_text(effective, description); });
@@ -204,7 +206,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
       run_scenes(command, configuration, constants, scenes, interrupted);
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
               command.out.c_str());
-  return exit_status(summary, interrupted);
+  return exit_status(summary, *library, interrupted);
 }
 
 }  // namespace posevote

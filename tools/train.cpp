@@ -10,7 +10,8 @@ namespace posevote {
 
 int train_command(const TrainCommand& command) {
   const Configuration configuration = load_configuration(command.config, command.set);
-  const auto library = train(configuration, list_models(command.models));
+  const auto library =
+      train(configuration, list_models(command.models), bad_models(command.on_error));
   library::save_library(*library, command.out, library_key(configuration));
   for (const auto& model : library->models)
     std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()
@@ -20,7 +21,8 @@ int train_command(const TrainCommand& command) {
   for (const LibraryOctave& octave : library->octaves)
     std::cout << "octave of " << octave.resolution << " m: " << octave.rows.size() << " models\n";
   std::cout << "wrote " << command.out << "\n";
-  return 0;
+  tell_left_out(*library);
+  return library->left_out.empty() ? 0 : 1;
 }
 
 }  // namespace posevote

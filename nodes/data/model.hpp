@@ -67,6 +67,13 @@ struct Model {
   }
 };
 
+/// A model that could not be trained.
+struct LeftOutModel {
+  std::string name;
+  int obj_id = 1;
+  std::string why;  ///< "node: cause"
+};
+
 /// Some of a model's features in an index.
 struct IndexedRows {
   std::uint32_t model = 0;  ///< number in the library
@@ -85,6 +92,7 @@ struct LibraryOctave {
 struct ModelLibrary {
   std::vector<std::shared_ptr<const Model>> models;  ///< ascending obj_id, each at its finest
   std::vector<LibraryOctave> octaves;                ///< ascending resolution
+  std::vector<LeftOutModel> left_out{};              ///< asked for, but not here
 };
 
 /// The model of that obj_id, or null.

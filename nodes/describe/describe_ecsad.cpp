@@ -16,7 +16,7 @@
 // 1.27 of our resolutions.
 //
 // Left out are feature points without a usable normal or with fewer than `min_neighbours`
-// neighbours off the normal's line. Fails if none is left. Time: O(feature points x neighbours).
+// neighbours off the normal's line. Time: O(feature points x neighbours).
 //
 //   describe_ecsad: {in: [cloud, points, scale], out: features, radius: 13}
 #include <Eigen/Cholesky>

@@ -7,7 +7,7 @@
 // result.
 //
 // Left out are feature points without a usable normal or with fewer than `min_neighbours`
-// neighbours. Fails if none is left. Time: O(surface points x neighbours).
+// neighbours. Time: O(surface points x neighbours).
 //
 //   describe_fpfh: {in: [cloud, points, scale], out: features, radius: 10}
 #include <pcl/features/fpfh.h>

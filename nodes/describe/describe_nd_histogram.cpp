@@ -11,7 +11,7 @@
 // 1.27 of our resolutions.
 //
 // Left out are feature points without a usable normal or with fewer than `min_neighbours`
-// neighbours that have one. Fails if none is left. Time: O(feature points x neighbours).
+// neighbours that have one. Time: O(feature points x neighbours).
 //
 //   describe_nd_histogram: {in: [cloud, points, scale], out: features, radius: 25}
 #include <algorithm>

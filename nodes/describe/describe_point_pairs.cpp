@@ -16,7 +16,7 @@
 // may be seen too, while a scan lacks the far side of the object that a model has.
 //
 // Left out are feature points without a usable normal or with fewer than `min_neighbours` such
-// neighbours. Fails if none is left. Time: O(feature points x neighbours).
+// neighbours. Time: O(feature points x neighbours).
 //
 //   describe_point_pairs: {in: [cloud, points, scale], out: features, radius: 25}
 #include <algorithm>

@@ -10,7 +10,7 @@
 // of our resolutions.
 //
 // Left out are feature points without a usable normal, with fewer than `min_neighbours` neighbours
-// or that no triangle touches. Fails if none is left. On a plane or a sphere, where no frame is
+// or that no triangle touches. On a plane or a sphere, where no frame is
 // better than another, the descriptor is as good as noise. Time: O(feature points x neighbours).
 //
 //   describe_rops: {in: [cloud, points, scale], out: features, radius: 16}

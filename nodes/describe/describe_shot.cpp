@@ -3,7 +3,7 @@
 // a sphere around the feature point, in a repeatable local frame. 352 numbers.
 //
 // Left out are feature points without a usable normal, with fewer than `min_neighbours` neighbours,
-// or for which PCL finds no frame. Fails if none is left. Time: O(feature points x neighbours).
+// or for which PCL finds no frame. Time: O(feature points x neighbours).
 //
 //   describe_shot: {in: [cloud, points, scale], out: features, radius: 20}
 #include <pcl/features/shot.h>

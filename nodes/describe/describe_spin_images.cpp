@@ -10,7 +10,7 @@
 // resolutions.
 //
 // Left out are feature points without a usable normal or with fewer than `min_neighbours`
-// neighbours, or with none in the cylinder. Fails if none is left. Time: O(feature points x
+// neighbours, or with none in the cylinder. Time: O(feature points x
 // neighbours).
 //
 //   describe_spin_images: {in: [cloud, points, scale], out: features, radius: 22}

@@ -9,7 +9,7 @@
 // edges of their meshes; on UWA's models one of those is some 1.27 of our resolutions.
 //
 // Left out are feature points without a usable normal, with fewer than `min_neighbours` neighbours,
-// or for which PCL finds no frame. Fails if none is left. Time: O(feature points x neighbours x
+// or for which PCL finds no frame. Time: O(feature points x neighbours x
 // their neighbours): the slowest of all, and the longest to match.
 //
 //   describe_usc: {in: [cloud, points, scale], out: features, radius: 16}

@@ -18,8 +18,7 @@ void require_describable(const Cloud& cloud, const FeaturePoints& points, const 
 bool is_oriented(const Cloud& cloud, std::uint32_t point);
 
 /// The feature points whose descriptor could be computed, row i of `descriptors` belonging to
-/// points.indices[i]. A row that is not finite is left out too. Throws std::runtime_error if
-/// nothing is left.
+/// points.indices[i]. A row that is not finite is left out too. There may be none.
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
                           const DescriptorMatrix& descriptors, const std::vector<char>& described);
 
@@ -36,8 +35,7 @@ class Support {
   float radius() const { return radius_; }          ///< [m]
 
   /// Calls describe(point, descriptor) in parallel for every oriented feature point, `descriptor`
-  /// being `length` numbers to write; where it returns false the point is left out. Throws what
-  /// keep_described throws.
+  /// being `length` numbers to write; where it returns false the point is left out.
   FeatureSet describe_each(
       int length,
       const std::function<bool(std::uint32_t point, float* descriptor)>& describe) const;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time\n";
-constexpr const char* kResultsHead = "{\"frames\": [";
+constexpr const char* kLeftOut = "{\"models_left_out\": ";
 constexpr const char* kFailuresTail = "\n]\n";
 
 std::string results_tail(const std::vector<graph::NodeTimes>& nodes) {
@@ -81,6 +81,14 @@ std::string csv_rows(const ordered_json& json) {
   return csv_rows(frame, detections);
 }
 
+/// A line for the models that are left out, if there are any, and the beginning of the list.
+std::string results_head(const std::vector<LeftOutModel>& left_out) {
+  ordered_json list = ordered_json::array();
+  for (const LeftOutModel& model : left_out)
+    list.push_back({{"obj_id", model.obj_id}, {"model", model.name}, {"why", model.why}});
+  return (list.empty() ? "{" : kLeftOut + line(list) + ",\n") + "\"frames\": [";
+}
+
 [[noreturn]] void fail_changed(const fs::path& results, std::size_t frame,
                                const std::string& before, const std::string& now) {
   throw std::invalid_argument(results.string() + ": frame " + std::to_string(frame) + " is " +
@@ -108,7 +116,8 @@ void require(const std::ostream& stream, const fs::path& file) {
 }  // namespace
 
 std::set<std::size_t> begin_results(const fs::path& out, bool resume,
-                                    const std::map<std::size_t, fs::path>& scans) {
+                                    const std::map<std::size_t, fs::path>& scans,
+                                    const std::vector<LeftOutModel>& left_out) {
   const fs::path csv = out / "results.csv";
   const fs::path results = out / "results.json";
   if (!resume && (fs::exists(csv) || fs::exists(results)))
@@ -123,7 +132,7 @@ std::set<std::size_t> begin_results(const fs::path& out, bool resume,
   std::set<std::size_t> answered;
   {
     std::ofstream rows(new_csv, std::ios::binary | std::ios::trunc);
-    AppendJson list(new_results, kResultsHead, results_tail({}));
+    AppendJson list(new_results, results_head(left_out), results_tail({}));
     rows << kHeader;
     for (const ordered_json& frame : frames) {
       rows << csv_rows(frame);
@@ -158,6 +167,24 @@ void ResultsWriter::write(const FailureReport& failure) {
                          {"file", failure.file.string()},
                          {"node", failure.node},
                          {"what", failure.what}}));
+}
+
+std::vector<LeftOutModel> read_left_out(const fs::path& file) {
+  std::vector<LeftOutModel> left_out;
+  std::ifstream stream(file);
+  std::string text;
+  if (!std::getline(stream, text) || !text.starts_with(kLeftOut) || !text.ends_with(','))
+    return left_out;
+  text.back() = '}';
+  try {
+    const ordered_json json = ordered_json::parse(text);
+    for (const ordered_json& model : json.at("models_left_out"))
+      left_out.push_back({model.at("model").get<std::string>(), model.at("obj_id").get<int>(),
+                          model.at("why").get<std::string>()});
+  } catch (const ordered_json::exception&) {
+    left_out.clear();  // torn
+  }
+  return left_out;
 }
 
 WrittenFrames read_frames(const fs::path& file, const std::string& key) {

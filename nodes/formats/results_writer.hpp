@@ -13,6 +13,7 @@
 #include "graph/trace.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/files.hpp"
+#include "nodes/data/model.hpp"
 #include "nodes/formats/append_json.hpp"
 
 namespace posevote::formats {
@@ -35,11 +36,12 @@ struct FailureReport {
 
 /// Makes the files of a run in `out`; with `resume`, they hold what an earlier one answered, whose
 /// frames are returned. Failed ones are not among them: a resumed run tries them again. `scans`:
-/// the file of each frame. Throws std::invalid_argument, and leaves all as it is, where `out` holds
+/// the file of each frame. `left_out`: models that are not sought. Throws std::invalid_argument, and leaves all as it is, where `out` holds
 /// another run and `resume` is false, or where it holds frames of other files; and
 /// std::runtime_error where it cannot be written.
 std::set<std::size_t> begin_results(const std::filesystem::path& out, bool resume,
-                                    const std::map<std::size_t, std::filesystem::path>& scans = {});
+                                    const std::map<std::size_t, std::filesystem::path>& scans = {},
+                                    const std::vector<LeftOutModel>& left_out = {});
 
 /// Appends to the files that begin_results has made. Throws std::runtime_error where one cannot be
 /// written.
@@ -64,6 +66,9 @@ struct WrittenFrames {
   std::vector<nlohmann::ordered_json> items;
   std::size_t torn = 0;  ///< lines left out
 };
+
+/// The models that a run did not seek, as the first line of its results.json says.
+std::vector<LeftOutModel> read_left_out(const std::filesystem::path& file);
 
 /// Each line is read alone: a killed run may have torn the last one. Lines without `key` are left
 /// out, too. Nothing where there is no such file.

@@ -4,14 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/weld.hpp"
 
 namespace posevote::geometry {
 namespace {
@@ -35,27 +34,8 @@ struct Component {
   Eigen::Array3d low, high;  ///< bounding box
   double area = 0;           ///< twice
   double volume = 0;         ///< six times, signed
+  bool closed = true;        ///< each edge has two faces
 };
-
-/// For each point the first one in the same place.
-std::vector<std::uint32_t> weld(const PointMatrix& points) {
-  const auto place = [&points](std::uint32_t i) {
-    std::array<std::uint32_t, 3> bits;
-    for (int axis = 0; axis < 3; ++axis)
-      bits[static_cast<std::size_t>(axis)] = std::bit_cast<std::uint32_t>(points(i, axis) + 0.0F);
-    return bits;  // + 0: minus zero is zero; and bits, unlike floats with NaN among them, sort
-  };
-  std::vector<std::uint32_t> sorted(static_cast<std::size_t>(points.rows()));
-  std::iota(sorted.begin(), sorted.end(), 0U);
-  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(place(a), a) < std::pair(place(b), b);
-  });
-  std::vector<std::uint32_t> first(sorted.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-    first[sorted[i]] =
-        i > 0 && place(sorted[i]) == place(sorted[i - 1]) ? first[sorted[i - 1]] : sorted[i];
-  return first;
-}
 
 /// Without faces that have two corners in one place, and without copies. Their corners are welded
 /// in `welded`.
@@ -93,7 +73,8 @@ std::vector<Side> sorted_sides(const FaceMatrix& faces) {
   return sides;
 }
 
-std::vector<std::vector<Link>> link_faces(const FaceMatrix& faces) {
+/// `open` receives the edges of one face alone.
+std::vector<std::vector<Link>> link_faces(const FaceMatrix& faces, std::vector<Edge>& open) {
   const std::vector<Side> sides = sorted_sides(faces);
   std::vector<std::vector<Link>> links(static_cast<std::size_t>(faces.rows()));
   for (std::size_t begin = 0; begin < sides.size();) {
@@ -105,6 +86,10 @@ std::vector<std::vector<Link>> link_faces(const FaceMatrix& faces) {
       const bool agree = a.ascending != b.ascending;
       links[a.face].push_back({b.face, agree});
       links[b.face].push_back({a.face, agree});
+    }
+    if (end - begin == 1) {
+      const std::uint64_t edge = sides[begin].edge;
+      open.push_back({static_cast<std::uint32_t>(edge >> 32), static_cast<std::uint32_t>(edge)});
     }
     begin = end;
   }
@@ -175,33 +160,58 @@ double size_of(const Component& component) {
   return (component.high - component.low).matrix().squaredNorm();
 }
 
+/// Its volume is noise.
+bool is_flat(const Component& component) {
+  return std::abs(component.volume) < 1e-4 * std::pow(component.area, 1.5);
+}
+
 bool is_turned(const Component& component, const Component& largest) {
   const bool inside = &component != &largest && (component.low >= largest.low).all() &&
                       (component.high <= largest.high).all();
-  const bool flat = std::abs(component.volume) < 1e-4 * std::pow(component.area, 1.5);
-  return (inside || flat ? largest : component).volume < 0;
+  const Component& deciding = inside || is_flat(component) ? largest : component;
+  return !is_flat(deciding) && deciding.volume < 0;
+}
+
+/// The connected components of faces, turned to agree within each.
+std::vector<Component> find_components(const PointMatrix& points, const FaceMatrix& welded,
+                                       WoundFaces& wound) {
+  const std::vector<std::vector<Link>> links = link_faces(welded, wound.open_edges);
+  FaceMatrix& faces = wound.faces;
+  std::vector<char> seen(links.size(), 0);
+  std::vector<Component> components;
+  for (std::uint32_t first = 0; first < links.size(); ++first) {
+    if (seen[first]) continue;
+    components.push_back(measure(points, faces, agree_around(first, points, links, seen, faces)));
+    Component& component = components.back();
+    component.closed = std::all_of(component.faces.begin(), component.faces.end(),
+                                   [&](std::uint32_t f) { return links[f].size() == 3; });
+  }
+  return components;
 }
 
 }  // namespace
 
-FaceMatrix wind_outward(const PointMatrix& points, const FaceMatrix& faces) {
+WoundFaces wind_parts(const PointMatrix& points, const FaceMatrix& faces) {
   check_faces(points, faces);
   FaceMatrix welded;
-  FaceMatrix wound = proper_faces(points, faces, welded);
-  if (wound.rows() == 0) return wound;
-  const std::vector<std::vector<Link>> links = link_faces(welded);
-  std::vector<char> seen(links.size(), 0);
-  std::vector<Component> components;
-  for (std::uint32_t first = 0; first < links.size(); ++first)
-    if (!seen[first])
-      components.push_back(measure(points, wound, agree_around(first, points, links, seen, wound)));
+  WoundFaces wound{proper_faces(points, faces, welded), {}, {}};
+  if (wound.faces.rows() == 0) return wound;
+  std::vector<Component> components = find_components(points, welded, wound);
   const Component& largest = *std::max_element(
       components.begin(), components.end(),
       [](const Component& a, const Component& b) { return size_of(a) < size_of(b); });
-  for (const Component& component : components)
-    if (is_turned(component, largest))
-      for (const std::uint32_t f : component.faces) turn(wound, f);
+  std::vector<bool> turned;
+  for (const Component& component : components) turned.push_back(is_turned(component, largest));
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (turned[i])
+      for (const std::uint32_t f : components[i].faces) turn(wound.faces, f);
+    wound.parts.push_back({std::move(components[i].faces), components[i].closed});
+  }
   return wound;
+}
+
+FaceMatrix wind_outward(const PointMatrix& points, const FaceMatrix& faces) {
+  return wind_parts(points, faces).faces;
 }
 
 }  // namespace posevote::geometry

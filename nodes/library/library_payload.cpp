@@ -135,6 +135,12 @@ std::string encode_library(const ModelLibrary& library) {
   out.put(std::int32_t{options.checks});
   out.put(std::uint64_t{library.models.size()});
   for (const auto& model : library.models) put_model(out, *model);
+  out.put(std::uint64_t{library.left_out.size()});
+  for (const LeftOutModel& model : library.left_out) {
+    out.put(model.name);
+    out.put(std::int32_t{model.obj_id});
+    out.put(model.why);
+  }
   return out.bytes();
 }
 
@@ -148,6 +154,13 @@ ModelLibrary decode_library(std::string_view bytes) {
   const auto count = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i)
     library.models.push_back(std::make_shared<const Model>(get_model(in)));
+  const auto left_out = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < left_out; ++i) {
+    LeftOutModel& model = library.left_out.emplace_back();
+    model.name = in.get_text();
+    model.obj_id = in.get<std::int32_t>();
+    model.why = in.get_text();
+  }
   if (!in.rest().empty()) throw std::runtime_error("is damaged: it goes on after its end");
   try {
     check_library(library);

@@ -40,13 +40,17 @@ PerObject<Mesh> load_models(const ModelFiles& files, const Params& params) {
       models.slots[i] =
           std::make_shared<const Mesh>(load_model(files[i].path, formats::metres_per(params.unit)));
     } catch (const std::exception& error) {
-      problems[i] = files[i].path.string() + ": " + error.what();
+      problems[i] = error.what();
     }
   });
   std::string all;
-  for (const std::string& problem : problems)
-    if (!problem.empty()) all += (all.empty() ? "" : "; ") + problem;
-  if (!all.empty()) throw std::runtime_error(all);
+  std::vector<graph::ObjectFailure> failed;
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    if (problems[i].empty()) continue;
+    all += (all.empty() ? "" : "; ") + files[i].path.string() + ": " + problems[i];
+    failed.push_back({i, problems[i]});
+  }
+  if (!failed.empty()) throw graph::ObjectErrors(failed, all);
   return models;
 }
 

@@ -10,7 +10,7 @@
 // images image_normals.hpp).
 //
 // With `outward`, the scan is the whole surface of a body, as a model is: its normals are made as
-// model_normals makes them (outward_normals.hpp), and no sensor says where they point.
+// sample_surface makes them (outward_normals.hpp), and no sensor says where they point.
 //
 // Points without a normal (alone, on a line) are left out, and so are faces. O(n log n), parallel.
 // Fails where no point is left.
@@ -134,7 +134,7 @@ const auto registered =
                "Fewer points in a neighbourhood give no normal (pca).", graph::in_range(3, 1000))
         .param("outward", &Params::outward, "",
                "The scan is a whole body: its normals point outward, not to the sensor. They are "
-               "made as model_normals makes them, the file's own are not used.")
+               "made as sample_surface makes them, the file's own are not used.")
         .check(check);
 
 }  // namespace

@@ -66,10 +66,6 @@ Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<
     scales.push_back(part.scale);
   }
   model.features = descriptors::stack_octaves(features, scales);
-  if (model.features.points.rows() == 0)
-    throw std::runtime_error(
-        file.path.string() +
-        ": none of its feature points has enough neighbours and a normal to be described");
   return model;
 }
 
@@ -81,6 +77,20 @@ void require_distinct_ids(const ModelLibrary& library) {
       throw std::runtime_error("models '" + a.name + "' and '" + b.name +
                                "' have the same obj_id " + std::to_string(a.obj_id));
   }
+}
+
+/// A model that nothing could match is named, so that the others can go on without it.
+void require_features(const ModelLibrary& library) {
+  const std::string why =
+      "none of its feature points has enough neighbours and a normal to be described";
+  std::vector<graph::ObjectFailure> failed;
+  std::string all;
+  for (std::size_t i = 0; i < library.models.size(); ++i) {
+    if (library.models[i]->features.points.rows() > 0) continue;
+    failed.push_back({i, why});
+    all += (all.empty() ? "" : "; ") + library.models[i]->name + ": " + why;
+  }
+  if (!failed.empty()) throw graph::ObjectErrors(failed, all);
 }
 
 void require_slots(std::size_t models, std::size_t octaves, const std::vector<std::size_t>& sizes) {
@@ -110,6 +120,7 @@ ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& me
     library.models.push_back(
         std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts)));
   }
+  require_features(library);  // before they are sorted: by the order of the files
   std::stable_sort(library.models.begin(), library.models.end(),
                    [](const auto& a, const auto& b) { return a->obj_id < b->obj_id; });
   require_distinct_ids(library);

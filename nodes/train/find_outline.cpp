@@ -1,32 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a model's surfaces end: segmentation holds that against where the scan's do
-// (outline.hpp). `reach` is what a scan that ends is off at most. O(points).
+// (outline.hpp). `reach` is what a scan that ends is off at most.
 //
-//   find_outline: {in: [cloud, scale], out: outline}
+// A closed body ends where it turns away. Where an open mesh has its border, the body may well go
+// on: a scan without its bottom, a CAD model of some faces of a thing. So nothing is said there,
+// unless `borders: end` says that the model is whole, a sheet. O(points + faces log faces).
+//
+//   find_outline: {in: [model_meshes, model_clouds, scale], out: outlines}
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "graph/registry.hpp"
+#include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/outline.hpp"
+#include "nodes/geometry/winding.hpp"
 
 namespace posevote::train {
 namespace {
 
 struct Params {
   double reach = 5;
+  std::string borders = "unknown";
 };
 
-Outline find_outline(const Cloud& cloud, const Scale& scale, const Params& params) {
+/// Points along the edges that one face has alone, at most `step` [m] apart.
+PointMatrix border_of(const Mesh& mesh, float step) {
+  std::vector<Eigen::RowVector3f> border;
+  for (const auto& [from, to] : geometry::wind_parts(mesh.points, mesh.faces).open_edges) {
+    const Eigen::RowVector3f a = mesh.points.row(from), b = mesh.points.row(to);
+    const float steps = std::max(1.0F, std::ceil((b - a).norm() / step));
+    for (float i = 0; i <= steps; ++i) border.emplace_back(a + i / steps * (b - a));
+  }
+  PointMatrix points(static_cast<Eigen::Index>(border.size()), 3);
+  for (std::size_t i = 0; i < border.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = border[i];
+  return points;
+}
+
+/// Takes out the ends on whose way there is a border: half way, as ends lie beyond that.
+void leave_out(const PointMatrix& border, const Cloud& cloud, Outline& outline) {
+  const float near = outline.reach / 2;
+  const geometry::PointGrid grid(border, near);
+  for (std::size_t i = 0; i < outline.ends.size(); ++i)
+    for (int k = 0; k < geometry::kOutlineDirections && outline.ends[i] != 0; ++k) {
+      bool is_border = false;
+      grid.for_each_within(geometry::place_ahead(cloud, static_cast<Eigen::Index>(i), k, near),
+                           near, [&](std::uint32_t, float) { is_border = true; });
+      if (is_border) outline.ends[i] = static_cast<std::uint8_t>(outline.ends[i] & ~(1U << k));
+    }
+}
+
+Outline find_outline(const Mesh& mesh, const Cloud& cloud, const Scale& scale,
+                     const Params& params) {
   geometry::require_normals(cloud);
-  return geometry::outline_of(cloud, static_cast<float>(params.reach) * scale.resolution);
+  Outline outline =
+      geometry::outline_of(cloud, static_cast<float>(params.reach) * scale.resolution);
+  if (params.borders == "end" || mesh.faces.rows() == 0) return outline;
+  const PointMatrix border = border_of(mesh, outline.reach / 4);
+  if (border.rows() > 0) leave_out(border, cloud, outline);
+  return outline;
 }
 
 const auto registered =
     graph::register_node("find_outline", find_outline, "Where a model's surfaces end.")
+        .input("mesh")
         .input("cloud")
         .input("scale")
         .output("outline")
         .param("reach", &Params::reach, "x resolution",
                "The model goes on where a point of it lies within half of that, that far ahead.",
-               graph::greater_than(0));
+               graph::greater_than(0))
+        .param("borders", &Params::borders, "", "Whether the body ends where an open mesh does.",
+               graph::one_of({"unknown", "end"}));
 
 }  // namespace
 }  // namespace posevote::train

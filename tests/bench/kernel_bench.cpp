@@ -58,7 +58,7 @@ struct Setting {
 
   Setting() {
     mesh = make_shape("figure", 1, 0.25);
-    model = prepare(run_node<Cloud>("model_normals", {}, mesh, Scale{kResolution}));
+    model = prepare(run_node<Cloud>("sample_surface", {}, mesh, Scale{kResolution}));
     const auto shared = std::make_shared<const Mesh>(mesh);
     std::vector<Body> bodies{{shared, 1, Eigen::Isometry3d::Identity()}, make_table(1.2)};
     bodies[0].T_world_body.translation().z() = 0.12;

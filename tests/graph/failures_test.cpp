@@ -77,16 +77,16 @@ TEST_CASE("the first failing object names itself", "[runner]") {
   CHECK(what == std::vector<std::string>{"object 3: met 4", "object 2: met 4", "object 1: met 4"});
 }
 
-TEST_CASE("a failure knows its object and the cause apart", "[runner]") {
+TEST_CASE("a failure knows its objects and the causes apart", "[runner]") {
   const NumberPipeline plan = plan_of(kHead +
                                       "  split: {in: n, out: objects}\n"
                                       "  fail_on: {in: objects, out: kept, bad: 4}\n"
                                       "  sum: {in: kept, out: r}\n");
   run_numbers(plan, 6, {}, [&](const auto& result) {
     if (!result.failure) return;
-    REQUIRE(result.failure->object);
-    CHECK(*result.failure->object == 4 - result.context.number);
-    CHECK(result.failure->cause == "met 4");
+    REQUIRE(result.failure->objects.size() == 1);
+    CHECK(result.failure->objects[0].object == 4 - result.context.number);
+    CHECK(result.failure->objects[0].cause == "met 4");
   });
 }
 

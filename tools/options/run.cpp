@@ -43,7 +43,7 @@ void add_options(CLI::App& app, RunCommand& command) {
   app.add_flag("--resume", command.resume, "Go on in an --out that a run has begun");
   app.add_option("--shard", command.shard, "Only every N-th scan, from the I-th on")
       ->type_name("I/N");
-  app.add_option("--on-error", command.on_error, "After a frame that fails")
+  app.add_option("--on-error", command.on_error, "After a model or a frame that fails")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
   app.add_flag("--quiet", command.quiet, "Only errors and the last line");

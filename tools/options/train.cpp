@@ -11,6 +11,9 @@ void add_options(CLI::App& app, TrainCommand& command) {
       ->required()
       ->type_name("FILE");
   app.add_option("--out", command.out, "The library's file")->required()->type_name("FILE");
+  app.add_option("--on-error", command.on_error, "After a model that cannot be used")
+      ->check(CLI::IsMember({"skip", "stop"}))
+      ->capture_default_str();
   add_set(app, command.set);
 }
 

@@ -86,6 +86,7 @@ RunResults read_run(const fs::path& folder) {
   const formats::WrittenFrames answered =
       formats::read_frames(folder / "results.json", "detections");
   const formats::WrittenFrames failed = formats::read_frames(folder / "failures.json", "what");
+  run.left_out = formats::read_left_out(folder / "results.json");
   StageSums stages;
   for (const Json& json : answered.items) {
     run.frames.push_back(to_frame(json));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "graph/trace.hpp"
+#include "nodes/data/model.hpp"
 
 namespace posevote {
 
@@ -32,6 +33,7 @@ struct FailedFrame {
 struct RunResults {
   std::vector<AnsweredFrame> frames;
   std::vector<FailedFrame> failures;
+  std::vector<LeftOutModel> left_out;    ///< models that could not be used
   std::vector<graph::NodeTimes> stages;  ///< over the answered frames, slowest first
   std::size_t torn = 0;                  ///< lines that are none, of a run that was killed
 };

@@ -98,6 +98,15 @@ std::string models(const RunResults& run) {
                                                rows);
 }
 
+std::string left_out(const RunResults& run) {
+  if (run.left_out.empty()) return "";
+  std::vector<html::Row> rows;
+  for (const LeftOutModel& model : run.left_out)
+    rows.push_back({escape_markup(model.name), escape_markup(model.why)});
+  return html::heading("Models left out") +
+         html::table({{"model"}, {"cause", html::Kind::kLong}}, rows);
+}
+
 std::string stages(const RunResults& run) {
   if (run.stages.empty()) return "";
   double sum = 0;
@@ -152,9 +161,9 @@ std::vector<html::Section> run_sections(const fs::path& folder, const std::strin
                                         std::size_t& pictures) {
   if (!holds_run(folder)) return {};
   const RunResults run = read_run(folder);
-  return {{where.empty() ? "Run" : where, summary(run) + models(run) + stages(run) + failures(run) +
-                                              frames_markup(run, folder, pictures, where.empty()) +
-                                              parameters(folder)}};
+  return {{where.empty() ? "Run" : where,
+           summary(run) + left_out(run) + models(run) + stages(run) + failures(run) +
+               frames_markup(run, folder, pictures, where.empty()) + parameters(folder)}};
 }
 
 }  // namespace posevote

@@ -60,16 +60,6 @@ void check_self(const Expected& expected) {
   CHECK(rate > expected.self);
 }
 
-/// The descriptors, or none where the node says that there are none.
-DescriptorMatrix described_or_refused(const Expected& expected, const Cloud& cloud) {
-  try {
-    return described(expected.node, cloud, 7, expected.params).descriptors;
-  } catch (const std::runtime_error& error) {
-    CHECK_THAT(error.what(), Catch::Contains("none of"));
-    return {};
-  }
-}
-
 }  // namespace
 
 TEST_CASE("descriptors are of their length, and all different places differ", "[describe]") {
@@ -182,11 +172,11 @@ TEST_CASE("planes, lines and heaps of equal points are described or refused", "[
     cloud->normals = Eigen::RowVector3f(0, 0, 1).replicate(900, 1);
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
-    const DescriptorMatrix flat = described_or_refused(expected, plane);
+    const DescriptorMatrix flat = described(expected.node, plane, 7, expected.params).descriptors;
     CHECK(flat.rows() > 0);
     CHECK(flat.allFinite());
-    CHECK(described_or_refused(expected, line).allFinite());
-    CHECK(described_or_refused(expected, heap).allFinite());
+    CHECK(described(expected.node, line, 7, expected.params).descriptors.allFinite());
+    CHECK(described(expected.node, heap, 7, expected.params).descriptors.allFinite());
   }
 }
 
@@ -203,9 +193,9 @@ TEST_CASE("what makes no sense is refused by all descriptors", "[describe]") {
     CHECK_THROWS_WITH(describe(body, {}, kResolution), Catch::Contains("no feature points"));
     CHECK_THROWS_WITH(describe(body, {{999999}}, kResolution), Catch::Contains("999999"));
     CHECK_THROWS_WITH(describe(body, {{0}}, 0), Catch::Contains("resolution"));
-    CHECK_THROWS_WITH(describe(body, {{0, 1}}, 1e-6F), Catch::Contains("none of 2"));
+    CHECK(describe(body, {{0, 1}}, 1e-6F).descriptors.rows() == 0);  // too few neighbours
     Cloud blind = body;
     blind.normals.setZero();
-    CHECK_THROWS_WITH(describe(blind, {{0}}, kResolution), Catch::Contains("none of 1"));
+    CHECK(describe(blind, {{0}}, kResolution).descriptors.rows() == 0);
   }
 }

@@ -18,7 +18,8 @@ class SoughtBody {
   }
 
   poses::Sought sought() const {
-    return {model, scan, poses::instance_params(params, model, kResolution), params.terms};
+    return {model,        scan, poses::instance_params(params, model, kResolution),
+            params.terms, 0,    octaves_of(features)};
   }
   Hypothesis hypothesis(const Eigen::Isometry3d& T_scene_model, double support = 10) const {
     return hypothesis_of(T_scene_model, model.center, support);

@@ -163,7 +163,8 @@ TEST_CASE("estimate_normals of a whole body are a model's, the sensor aside", "[
   Scan scan = sphere_scan(0.001F);
   scan.normals = PointMatrix::Constant(14000, 3, 2);  // the file's, wrong on purpose: not used
   const Cloud out = oriented(scan, {{"outward", "true"}});
-  const Cloud model = test::run_node<Cloud>("model_normals", {}, Mesh(scan), kScale);
+  const Cloud model =
+      test::run_node<Cloud>("sample_surface", {{"spacing", "0"}}, Mesh(scan), kScale);
   CHECK(out.points == model.points);
   CHECK(out.normals == model.normals);
   CHECK(out.view.origin == scan.view.origin);

@@ -4,6 +4,7 @@
 #include "nodes/data/model.hpp"
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
+#include "tests/support/shapes.hpp"
 
 using namespace posevote;
 using namespace posevote::test;
@@ -16,15 +17,40 @@ TEST_CASE("find_outline sees where a plate ends, and that a closed body does not
                                     [](std::uint8_t ends) { return ends != 0; });
     return static_cast<double>(some) / static_cast<double>(outline.ends.size());
   };
-  const Outline edge = run_node<Outline>("find_outline", {}, plate, scale);
+  const Outline edge = run_node<Outline>("find_outline", {}, Mesh{}, plate, scale);
   CHECK(edge.reach == 5 * kResolution);
   CHECK(static_cast<Eigen::Index>(edge.ends.size()) == plate.points.rows());
   CHECK(share(edge) > 0.2);
   CHECK(share(edge) < 0.6);
-  CHECK(share(run_node<Outline>("find_outline", {}, body, scale)) < 0.1);
-  CHECK(share(run_node<Outline>("find_outline", {{"reach", "2"}}, plate, scale)) < share(edge));
+  CHECK(share(run_node<Outline>("find_outline", {}, Mesh{}, body, scale)) < 0.1);
+  CHECK(share(run_node<Outline>("find_outline", {{"reach", "2"}}, Mesh{}, plate, scale)) <
+        share(edge));
   Cloud bare = plate;
   bare.normals.resize(0, 3);
-  CHECK_THROWS_WITH(run_node<Outline>("find_outline", {}, bare, scale),
+  CHECK_THROWS_WITH(run_node<Outline>("find_outline", {}, Mesh{}, bare, scale),
                     Catch::Contains("no normals"));
+}
+
+TEST_CASE("find_outline says nothing where a mesh has its border", "[train]") {
+  // A box without its bottom: it ends at four upper edges for sure, at the lower ones perhaps.
+  Mesh body = box({0, 0, 0}, 0.1F);
+  body.faces = FaceMatrix(body.faces.bottomRows(10));
+  const Scale scale{0.002F};
+  const Cloud surface =
+      run_node<Cloud>("sample_surface", {{"spacing", "1"}, {"two_sided", "never"}}, body, scale);
+  const auto ends = [&](const char* borders, float z) {
+    const Outline outline =
+        run_node<Outline>("find_outline", {{"borders", borders}}, body, surface, scale);
+    int count = 0;
+    for (Eigen::Index i = 0; i < surface.points.rows(); ++i)
+      count += std::abs(surface.points(i, 2) - z) < 0.004F &&
+               surface.points.row(i).head<2>().cwiseAbs().minCoeff() < 0.03F &&
+               outline.ends[static_cast<std::size_t>(i)] != 0;
+    return count;
+  };
+  CHECK(ends("unknown", 0.05F) > 50);
+  CHECK(ends("end", 0.05F) == ends("unknown", 0.05F));
+  CHECK(ends("end", -0.05F) > 50);
+  CHECK(ends("unknown", -0.05F) == 0);
+  CHECK_THROWS(run_node<Outline>("find_outline", {{"borders", "no"}}, body, surface, scale));
 }

@@ -17,8 +17,10 @@ namespace {
 
 const Scale kScale{0.0015F};
 
-Cloud oriented(Mesh model, const std::map<std::string, std::string>& params = {}) {
-  return test::run_node<Cloud>("model_normals", params, std::move(model), kScale);
+/// The vertices, with normals.
+Cloud oriented(Mesh model, std::map<std::string, std::string> params = {}) {
+  params.emplace("spacing", "0");
+  return test::run_node<Cloud>("sample_surface", params, std::move(model), kScale);
 }
 
 /// Of the corners of a convex body around `center`, the share whose normal points away from it.
@@ -32,7 +34,7 @@ double share_outward(const Cloud& cloud, Eigen::Index begin, Eigen::Index end,
 
 }  // namespace
 
-TEST_CASE("model_normals point outward however the mesh is wound", "[prepare]") {
+TEST_CASE("normals of a model's vertices point outward however the mesh is wound", "[train]") {
   for (const bool inward : {false, true}) {
     const Cloud out = oriented(test::box({1, 2, 3}, 0.1F, inward));
     REQUIRE(out.points.rows() == 8);
@@ -40,14 +42,15 @@ TEST_CASE("model_normals point outward however the mesh is wound", "[prepare]") 
   }
 }
 
-TEST_CASE("model_normals make inconsistent winding agree", "[prepare]") {
+TEST_CASE("normals of a model's vertices make inconsistent winding agree", "[train]") {
   Mesh mesh = test::box({0, 0, 0}, 0.1F);
   const Cloud clean = oriented(mesh);
   for (const int f : {0, 3, 4, 7, 10}) std::swap(mesh.faces(f, 0), mesh.faces(f, 2));
   CHECK(test::mean_angle(oriented(mesh).normals, clean.normals) < 0.01);
 }
 
-TEST_CASE("model_normals are not moved by degenerate and repeated faces", "[prepare]") {
+TEST_CASE("normals of a model's vertices are not moved by degenerate and repeated faces",
+          "[train]") {
   Mesh mesh = test::box({0, 0, 0}, 0.1F);
   const Cloud clean = oriented(mesh);
   mesh.faces.conservativeResize(17, 3);
@@ -59,7 +62,7 @@ TEST_CASE("model_normals are not moved by degenerate and repeated faces", "[prep
   CHECK(test::mean_angle(oriented(mesh).normals, clean.normals) < 0.01);
 }
 
-TEST_CASE("model_normals are weighted by area", "[prepare]") {
+TEST_CASE("normals of a model's vertices are weighted by area", "[train]") {
   Mesh mesh;  // two faces share an edge along y: one of area 8 facing z, one of area 1 facing x
   mesh.points.resize(4, 3);
   mesh.points << 0, 0, 0, 0, 1, 0, -16, 0, 0, 0, 0, -2;
@@ -70,14 +73,14 @@ TEST_CASE("model_normals are weighted by area", "[prepare]") {
   CHECK(std::abs(normals(2, 2)) == Approx(1));
 }
 
-TEST_CASE("model_normals turn each part by itself", "[prepare]") {
+TEST_CASE("normals of a model's vertices turn each part by itself", "[train]") {
   const Mesh parts = test::joined(test::box({0, 0, 0}, 0.1F), test::box({1, 0, 0}, 0.05F, true));
   const Cloud out = oriented(parts);
   CHECK(share_outward(out, 0, 8, {0, 0, 0}) == 1);
   CHECK(share_outward(out, 8, 16, {1, 0, 0}) == 1);
 }
 
-TEST_CASE("model_normals keep a cavity's wall facing into the cavity", "[prepare]") {
+TEST_CASE("normals of a model's vertices keep a cavity's wall facing into the cavity", "[train]") {
   for (const bool inward : {false, true}) {
     const Mesh hollow =
         test::joined(test::box({0, 0, 0}, 0.1F, inward), test::box({0, 0, 0}, 0.09F, !inward));
@@ -87,7 +90,7 @@ TEST_CASE("model_normals keep a cavity's wall facing into the cavity", "[prepare
   }
 }
 
-TEST_CASE("model_normals see through seams where points are doubled", "[prepare]") {
+TEST_CASE("normals of a model's vertices see through seams where points are doubled", "[train]") {
   const Mesh box = test::box({0, 0, 0}, 0.1F);
   Mesh soup;  // every face has corners of its own, every other one is turned
   soup.points.resize(36, 3);
@@ -100,13 +103,13 @@ TEST_CASE("model_normals see through seams where points are doubled", "[prepare]
   CHECK(share_outward(oriented(soup), 0, 36, {0, 0, 0}) == 1);
 }
 
-TEST_CASE("model_normals of an open shell face out of its bulge", "[prepare]") {
+TEST_CASE("normals of a model's vertices of an open shell face out of its bulge", "[train]") {
   Mesh shell = test::box({0, 0, 0}, 0.1F, true);
   shell.faces = FaceMatrix(shell.faces.topRows(10));  // one side is open
   CHECK(share_outward(oriented(shell), 0, 8, {0, 0, 0}) == 1);
 }
 
-TEST_CASE("model_normals drop points of no face", "[prepare]") {
+TEST_CASE("normals of a model's vertices drop points of no face", "[train]") {
   Mesh mesh = test::box({0, 0, 0}, 0.1F);
   mesh.points.conservativeResize(10, 3);
   mesh.points.bottomRows(2).setZero();
@@ -114,7 +117,7 @@ TEST_CASE("model_normals drop points of no face", "[prepare]") {
   CHECK(out.points.rows() == 8);
 }
 
-TEST_CASE("model_normals of a raw cloud point outward on each part", "[prepare]") {
+TEST_CASE("normals of a model's vertices of a raw cloud point outward on each part", "[train]") {
   Mesh model;
   model.points.resize(18000, 3);
   model.points << test::sphere(14000, 0.05F),
@@ -126,7 +129,8 @@ TEST_CASE("model_normals of a raw cloud point outward on each part", "[prepare]"
   CHECK(test::mean_angle(out.normals.topRows(14000), test::sphere(14000, 1)) < 2);
 }
 
-TEST_CASE("model_normals of a raw hollow cloud face away from the wall", "[prepare]") {
+TEST_CASE("normals of a model's vertices of a raw hollow cloud face away from the wall",
+          "[train]") {
   // An open cup 4 mm thick, round at the rim: a torus-like profile turned about z.
   std::vector<Eigen::RowVector3f> points;
   std::vector<bool> inner;
@@ -152,7 +156,7 @@ TEST_CASE("model_normals of a raw hollow cloud face away from the wall", "[prepa
   cup.points.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
     cup.points.row(static_cast<Eigen::Index>(i)) = points[i];
-  const Cloud out = test::run_node<Cloud>("model_normals", {}, cup, Scale{0.0005F});
+  const Cloud out = test::run_node<Cloud>("sample_surface", {}, cup, Scale{0.0005F});
   REQUIRE(out.points.rows() == cup.points.rows());
   int wrong = 0;
   for (std::size_t i = 0; i < walls; ++i) {
@@ -163,7 +167,7 @@ TEST_CASE("model_normals of a raw hollow cloud face away from the wall", "[prepa
   CHECK(wrong < static_cast<int>(walls / 100));
 }
 
-TEST_CASE("model_normals of real models without their faces", "[prepare]") {
+TEST_CASE("normals of a model's vertices of real models without their faces", "[train]") {
   for (const std::string name :
        {"bunny/bunny.ply", "icbin/models/obj_000001.ply", "uwa/models/chicken.ply"}) {
     const std::filesystem::path file = test::real_data() / name;
@@ -185,7 +189,7 @@ TEST_CASE("model_normals of real models without their faces", "[prepare]") {
   }
 }
 
-TEST_CASE("the Bunny's mesh is wound inward and comes out outward", "[prepare]") {
+TEST_CASE("the Bunny's mesh is wound inward and comes out outward", "[train]") {
   const std::filesystem::path file = test::real_data() / "bunny/bunny.ply";
   if (!std::filesystem::exists(file)) {
     WARN("skipped: no " << file);
@@ -199,7 +203,7 @@ TEST_CASE("the Bunny's mesh is wound inward and comes out outward", "[prepare]")
   CHECK(out.normals(top, 1) > 0.5F);
 }
 
-TEST_CASE("model_normals fail by counts and indices", "[prepare]") {
+TEST_CASE("normals of a model's vertices fail by counts and indices", "[train]") {
   Mesh mesh = test::box({0, 0, 0}, 0.1F);
   mesh.faces(0, 0) = 77;
   CHECK_THROWS_WITH(oriented(mesh), Contains("refers to point 77 of 8"));
