@@ -13,7 +13,9 @@
 namespace posevote::geometry {
 namespace {
 
-constexpr float kWidth = 6;             // x spacing
+constexpr float kWidth = 6;             // x spacing, at least
+constexpr float kThin = 0.15F;          // x width: a patch no thicker than that has a plane
+constexpr int kMostDoublings = 4;       // of the width
 constexpr std::size_t kFewest = 12;     // points in a patch
 constexpr std::size_t kPatches = 4000;  // enough for a median
 
@@ -46,12 +48,10 @@ float median(std::vector<float> values) {
   return *middle;
 }
 
-}  // namespace
-
-SensorNoise measure_noise(const PointMatrix& points, const Eigen::Vector3f& viewpoint) {
-  const float spacing = point_spacing(points);
-  if (!(spacing > 0) || !std::isfinite(spacing)) return {};
-  const Voxels voxels = group_by_voxel(points, kWidth * spacing);
+/// From patches of one width.
+SensorNoise measure_patches(const PointMatrix& points, const Eigen::Vector3f& viewpoint,
+                            float width) {
+  const Voxels voxels = group_by_voxel(points, width);
   const std::size_t step = voxels.size() / kPatches + 1;
   SensorNoise found;
   std::vector<float> noises, spacings;
@@ -67,6 +67,20 @@ SensorNoise measure_noise(const PointMatrix& points, const Eigen::Vector3f& view
   found.spacing_per_range = median(spacings);
   std::sort(found.ranges.begin(), found.ranges.end());
   found.median_range = found.ranges[found.ranges.size() / 2];
+  return found;
+}
+
+}  // namespace
+
+SensorNoise measure_noise(const PointMatrix& points, const Eigen::Vector3f& viewpoint) {
+  const float spacing = point_spacing(points);
+  if (!(spacing > 0) || !std::isfinite(spacing)) return {};
+  SensorNoise found;
+  float width = kWidth * spacing;
+  for (int i = 0; i <= kMostDoublings; ++i, width *= 2) {
+    found = measure_patches(points, viewpoint, width);
+    if (!found.ranges.empty() && found.noise_at(found.median_range) < kThin * width) break;
+  }
   return found;
 }
 

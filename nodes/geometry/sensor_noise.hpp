@@ -28,8 +28,8 @@ struct SensorNoise {
   float spacing_at(float range) const { return spacing_per_range * range; }
 };
 
-/// From patches some six point spacings wide; those with few points, or that hold an edge, are
-/// outvoted. Nothing (zeros, no ranges) where there are none. O(n log n).
+/// From patches some six point spacings wide, or wider where the noise is larger than that; those
+/// with few points, or that hold an edge, are outvoted. Nothing (zeros, no ranges) where there are none. O(n log n).
 SensorNoise measure_noise(const PointMatrix& points, const Eigen::Vector3f& viewpoint);
 
 }  // namespace posevote::geometry

@@ -3,9 +3,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tools/evaluate/calibration.hpp"
 #include "tools/evaluate/curve.hpp"
 #include "tools/evaluate/pose_error.hpp"
 #include "tools/evaluate/surface_discrepancy.hpp"
+#include "tools/evaluate/surface_points.hpp"
 
 using namespace posevote;
 
@@ -69,6 +71,7 @@ TEST_CASE("a turn by a symmetry is no error, any other is", "[evaluate]") {
 TEST_CASE("ADI is the mean distance to the closest point, by brute force", "[evaluate]") {
   layouts::TrueObject object = box(0.2, 0.1, 0.05);
   object.symmetries.push_back(at(0, 0, 0, M_PI));
+  object.faces.resize(0, 3);
   object.points.resize(900, 3);
   object.points.setRandom();
   object.points *= 0.1F;
@@ -179,4 +182,67 @@ TEST_CASE("precision-recall curve, best F1 and average precision by hand", "[eva
   CHECK(make_curve({{0.5, true}, {0.5, false}}, 1).size() == 1);
   CHECK_FALSE(best_f1(make_curve({}, 3)).has_value());
   CHECK(average_precision({}) == 0);
+}
+
+TEST_CASE("ADD-S of faces, not of their few corners, by hand", "[evaluate]") {
+  layouts::TrueObject sheet;
+  sheet.points.resize(4, 3);
+  sheet.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  sheet.faces.resize(2, 3);
+  sheet.faces << 0, 1, 2, 0, 2, 3;
+  sheet.diameter = std::sqrt(2);
+  sheet.center = Eigen::Vector3d(0.5, 0.5, 0);
+  sheet.symmetries = {Eigen::Isometry3d::Identity()};
+  const PoseMeter meter(sheet);
+  const Eigen::Isometry3d truth = at(0, 0, 3);
+  CHECK(meter.adds(truth, truth) == Approx(0).margin(1e-6));
+  CHECK(meter.adds(truth, at(0, 0, 3.05)) == Approx(0.05).epsilon(0.01));
+  // In its own plane only a strip of a tenth sticks out, by half of that on average. The rest lies
+  // half a spacing (7 mm) from the closest point. The corners alone would say 0.1.
+  CHECK(meter.adds(truth, at(0.1, 0, 3)) == Approx(0.005 + 0.9 * 0.0035).margin(0.001));
+  CHECK(meter.add(truth, at(0.1, 0, 3)) == Approx(0.1));
+  // A quarter turn about its middle maps it onto itself, though nobody says so.
+  const Eigen::Isometry3d turned = at(1, 0, 3, M_PI / 2);
+  CHECK(meter.adds(truth, turned) < 0.01);
+  CHECK(meter.add(truth, turned) > 0.5);
+  CHECK(meter.adds(truth, at(3, 0, 3)) == kBeyond);
+}
+
+TEST_CASE("points spread over faces by their area, in the same places each time", "[evaluate]") {
+  const layouts::TrueObject object = box(0.2, 0.1, 0.05);
+  const PointMatrix points = surface_points(object.points, object.faces, 7000);
+  CHECK(points == surface_points(object.points, object.faces, 7000));
+  int tops = 0, ends = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3f share =
+        points.row(i).transpose().cwiseAbs().cwiseQuotient(Eigen::Vector3f(0.1F, 0.05F, 0.025F));
+    REQUIRE(share.maxCoeff() == Approx(1).epsilon(1e-5));
+    tops += share.z() > 0.9999F, ends += share.x() > 0.9999F;
+  }
+  CHECK(tops == Approx(4000).margin(20));  // of 2 (0.02 + 0.01 + 0.005) m^2
+  CHECK(ends == Approx(1000).margin(20));
+  CHECK(points.colwise().mean().norm() < 0.001F);
+}
+
+TEST_CASE("expected calibration error by hand", "[evaluate]") {
+  // Bin [0.2, 0.3): mean 0.25, half of two right. Bin [0.9, 1]: mean 0.95, three of four right.
+  const std::vector<Verdict> verdicts{{0.2, true},   {0.3 - 1e-9, false}, {0.9, true},
+                                      {0.95, false}, {0.95, true},        {1, true}};
+  const auto calibration = calibrate(verdicts);
+  REQUIRE(calibration);
+  CHECK(calibration->count == 6);
+  REQUIRE(calibration->bins.size() == 10);
+  CHECK(calibration->bins[2].count == 2);
+  CHECK(calibration->bins[2].right == Approx(0.5));
+  CHECK(calibration->bins[9].count == 4);
+  CHECK(calibration->bins[9].mean_score == Approx(0.95));
+  CHECK(calibration->error == Approx((2 * 0.25 + 4 * 0.2) / 6));
+  CHECK(calibrate({})->error == 0);
+  CHECK_FALSE(calibrate({{1.2, true}}));
+  const auto again = calibrate(verdicts_of(make_curve(verdicts, 10)));
+  REQUIRE(again);
+  CHECK(again->error == Approx(calibration->error));
+  CHECK(reliability_csv({{"hand", *calibration}}).find("hand,0.2,0.3,2,0.250000,0.500000\n") !=
+        std::string::npos);
+  CHECK(reliability_csv({{"hand", *calibration}}).find("hand,0.3,0.4,0,,\n") != std::string::npos);
 }

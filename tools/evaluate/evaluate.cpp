@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "graph/parallel.hpp"
+#include "tools/evaluate/calibration.hpp"
 #include "tools/evaluate/judge_image.hpp"
 
 namespace posevote {
@@ -132,6 +133,11 @@ void summarise_all(const std::vector<std::vector<CaseResult>>& images, Evaluatio
 }
 
 }  // namespace
+
+double calibration_error(const RuleResult& result) {
+  const auto calibration = calibrate(verdicts_of(result.curve));
+  return calibration && calibration->count > 0 ? calibration->error : kUnknown;
+}
 
 Evaluation evaluate(const layouts::GroundTruth& truth, const std::vector<FoundInstance>& found,
                     const EvaluateOptions& options) {

@@ -62,6 +62,10 @@ struct Evaluation {
   std::vector<std::string> notes;                  ///< what was not judged
 };
 
+/// Expected calibration error of all detections that a rule judged; kUnknown where a score is no
+/// probability or there are no detections.
+double calibration_error(const RuleResult& result);
+
 /// For each image, object and condition, detections take in descending order of their score the
 /// nearest right instance that is still free; the others are false positives, but one that finds an
 /// instance that is not counted is neither. Of BOP's average recalls, as many detections are judged

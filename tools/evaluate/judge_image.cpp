@@ -18,7 +18,8 @@ class ImageMeter {
   ImageMeter(const layouts::TrueImage& image, const std::vector<Rule>& rules) : image_(image) {
     const bool usable = image.camera && !image.depth.empty();
     for (const Rule& rule : rules) {
-      needs_add_ |= rule.name.starts_with("ad");
+      needs_add_ |= rule.name == "add" || rule.name == "adi15";
+      needs_adds_ |= rule.name == "adds";
       needs_mssd_ |= rule.name == "mssd";
       needs_mspd_ |= usable && rule.needs == Needs::camera;
       needs_vsd_ |= usable && rule.needs == Needs::depth;
@@ -63,6 +64,7 @@ class ImageMeter {
     errors.center = meter.center(T_true, T_found);
     errors.rotation = meter.rotation(T_true, T_found);
     if (needs_add_) errors.add = meter.add(T_true, T_found);
+    if (needs_adds_) errors.adds = meter.adds(T_true, T_found);
     if (needs_mssd_) errors.mssd = meter.mssd(T_true, T_found);
     if (needs_mspd_)
       errors.mspd = meter.mspd(T_true, T_found, *image_.camera) * 640 / measured_.width;
@@ -80,7 +82,8 @@ class ImageMeter {
   }
 
   const layouts::TrueImage& image_;
-  bool needs_add_ = false, needs_mssd_ = false, needs_mspd_ = false, needs_vsd_ = false;
+  bool needs_add_ = false, needs_adds_ = false, needs_mssd_ = false, needs_mspd_ = false,
+       needs_vsd_ = false;
   RangeImage measured_;
 };
 

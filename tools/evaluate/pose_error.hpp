@@ -29,9 +29,12 @@ class PoseMeter {
   /// The smallest rotation over the symmetries [rad].
   double rotation(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
   /// ADD: mean distance between a model point in one pose and the same point in the other; for
-  /// symmetric objects ADI: to the closest point in the other (Hinterstoisser 2012) [m]. At most
-  /// 1000 model points are measured, evenly taken. kBeyond where centres are a diameter apart.
+  /// symmetric objects `adds` [m]. At most 1000 model points are measured, evenly taken: vertices,
+  /// or, of a mesh that has fewer, points of its faces. kBeyond where centres are a diameter apart.
   double add(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
+  /// ADD-S, which is ADI: mean distance of a model point in the true pose to the closest point in
+  /// the other (Hinterstoisser 2012; Xiang 2018), of whatever object [m]. As above.
+  double adds(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
   /// BOP's maximum symmetry-aware surface distance [m]; kBeyond as above.
   double mssd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
   /// BOP's maximum symmetry-aware projection distance [pixel]; kBeyond where a model point lies
@@ -40,13 +43,14 @@ class PoseMeter {
               const Camera& camera) const;
 
  private:
-  struct Tree;  // k-d tree of all model points (nanoflann)
+  struct Tree;  // k-d tree of all points that stand for the surface (nanoflann)
 
   template <class Measure>
   double least_over_symmetries(const Measure& measure) const;
 
   const layouts::TrueObject* object_;
-  Eigen::Matrix3Xd sample_, few_, extreme_, all_;
+  PointMatrix surface_;  ///< vertices, or points of few large faces
+  Eigen::Matrix3Xd sample_, extreme_, all_;
   std::vector<Eigen::Isometry3d> steps_;
   std::shared_ptr<const Tree> tree_;
 };

@@ -11,12 +11,13 @@ namespace posevote {
 struct FoundInstance {
   int line = 0;  ///< of the file, from 1
   int scene_id = 0, im_id = 0, obj_id = 0;
-  double score = 0;
+  double score = 0;  ///< or the confidence, where there is one
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
 };
 
 /// Reads `scene_id,im_id,obj_id,score,R,t,time` (R: 9 numbers row by row; t in mm; both separated
-/// by spaces). Throws std::runtime_error "file:line: what is wrong" for the first bad row.
+/// by spaces); the first line may name an eighth column, `confidence`, which then takes the place of
+/// the score. Throws std::runtime_error "file:line: what is wrong" for the first bad row.
 std::vector<FoundInstance> read_results_csv(const std::string& file);
 
 }  // namespace posevote

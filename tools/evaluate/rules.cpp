@@ -26,6 +26,11 @@ Condition add_within(double diameters) {
           [](const PairErrors& e) { return e.add; }};
 }
 
+Condition adds_within(double diameters) {
+  return {[=](const PairErrors& e, double diameter) { return e.adds <= diameters * diameter; },
+          [](const PairErrors& e) { return e.adds; }};
+}
+
 /// As BOP does it: smaller than, not equal.
 Condition below(const Order& error, double limit, bool of_diameter) {
   return {[=](const PairErrors& e, double diameter) {
@@ -58,6 +63,7 @@ std::vector<Rule> make_rules() {
       {"drost", "pose diameter/10, 12 deg", Needs::poses, {pose_within(0, 0.1, 12)}},
       {"add", "ADD/ADI 0.1 diameter", Needs::poses, {add_within(0.1)}},
       {"adi15", "ADD/ADI 0.15 diameter", Needs::poses, {add_within(0.15)}},
+      {"adds", "ADD-S 0.1 diameter", Needs::poses, {adds_within(0.1)}},
       {"mssd", "AR MSSD (BOP19)", Needs::poses,
        in_steps([](const PairErrors& e) { return e.mssd; }, 0.05, true)},
       {"mspd", "AR MSPD (BOP19)", Needs::camera,

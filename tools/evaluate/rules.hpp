@@ -16,6 +16,7 @@ struct PairErrors {
   double center = kUnknown;       ///< [m]
   double rotation = kUnknown;     ///< [rad]
   double add = kUnknown;          ///< [m]
+  double adds = kUnknown;         ///< [m]
   double mssd = kUnknown;         ///< [m]
   double mspd = kUnknown;         ///< [pixel of an image 640 wide]
   double vsd_2018 = kUnknown;     ///< tau 20 mm

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "tools/evaluate/calibration.hpp"
 #include "tools/plot/line_chart.hpp"
 #include "tools/write_text.hpp"
 
@@ -34,26 +35,28 @@ void for_each_result(
 
 std::string summary_csv(const Evaluation& evaluation) {
   std::string text =
-      "object,rule,instances,detections,correct,recall,precision,f1,best_f1,threshold,ap\n";
+      "object,rule,instances,detections,correct,recall,precision,f1,best_f1,threshold,ap,ece\n";
   for_each_result(evaluation, [&](const std::string& who, std::size_t r, const RuleResult& result) {
     const Counts& counts = result.counts;
     text += who + "," + evaluation.rules[r].name + "," + std::to_string(counts.instances) + ",";
     const auto best = best_f1(result.curve);
     const std::string recall = counts.instances > 0 ? number(counts.recall()) : "";
     if (evaluation.rules[r].average())
-      text += ",," + recall + ",,,,,\n";
+      text += ",," + recall + ",,,,,,\n";
     else
       text += std::to_string(counts.detections) + "," + number(counts.correct) + "," + recall +
               "," + number(counts.precision()) + "," + number(counts.f1()) + "," +
               (best ? number(best->counts.f1()) + "," + number(best->score) : "0,") + "," +
-              number(average_precision(result.curve)) + "\n";
+              number(average_precision(result.curve)) + "," + number(calibration_error(result)) +
+              "\n";
   });
   return text;
 }
 
 std::string instances_csv(const Evaluation& evaluation) {
   std::string text =
-      "scene_id,im_id,obj_id,visible,counted,score,center_mm,rotation_deg,add_mm,mssd_mm,mspd_px,"
+      "scene_id,im_id,obj_id,visible,counted,score,center_mm,rotation_deg,add_mm,adds_mm,mssd_mm,"
+      "mspd_px,"
       "vsd_tau_20mm";
   for (const Rule& rule : evaluation.rules) text += "," + rule.name;
   text += "\n";
@@ -62,8 +65,9 @@ std::string instances_csv(const Evaluation& evaluation) {
     text += std::to_string(result.scene_id) + "," + std::to_string(result.im_id) + "," +
             std::to_string(result.obj_id) + "," + (result.visible ? number(*result.visible) : "") +
             "," + (result.counted ? "1" : "0") + "," + (result.found ? number(result.score) : "");
-    for (const double value : {errors.center * 1000, errors.rotation * 180 / std::numbers::pi,
-                               errors.add * 1000, errors.mssd * 1000, errors.mspd, errors.vsd_2018})
+    for (const double value :
+         {errors.center * 1000, errors.rotation * 180 / std::numbers::pi, errors.add * 1000,
+          errors.adds * 1000, errors.mssd * 1000, errors.mspd, errors.vsd_2018})
       text += "," + (result.found ? number(value) : "");
     for (const double met : result.met) text += "," + number(met);
     text += "\n";
@@ -106,6 +110,15 @@ std::string curve_svg(const Evaluation& evaluation) {
   return plot::to_svg(charts);
 }
 
+std::vector<NamedCalibration> calibrations_of(const Evaluation& evaluation) {
+  std::vector<NamedCalibration> all;
+  for (std::size_t r = 0; r < evaluation.rules.size(); ++r)
+    if (!evaluation.rules[r].average())
+      if (const auto made = calibrate(verdicts_of(evaluation.all[r].curve)))
+        all.push_back({evaluation.rules[r].name, *made});
+  return all;
+}
+
 std::string visibility_svg(const Evaluation& evaluation) {
   plot::Chart chart{"Recall by visibility", "visible [%]", "recall", {}, {}, {}, false, false};
   chart.x_range = {0.0, 100.0};
@@ -139,6 +152,8 @@ ordered_json to_json(const RuleResult& result, const Rule& rule) {
     json["best_f1"] = best ? best->counts.f1() : 0;
     json["threshold"] = best ? ordered_json(best->score) : ordered_json();
     json["ap"] = average_precision(result.curve);
+    const double ece = calibration_error(result);
+    json["ece"] = std::isnan(ece) ? ordered_json() : ordered_json(ece);
   }
   for (std::size_t bin = 0; bin < 10; ++bin)
     if (const VisibleBin& place = result.by_visibility[bin]; place.instances > 0)
@@ -176,6 +191,8 @@ void write_evaluation(const Evaluation& evaluation, const fs::path& folder) {
   write_text(folder / "instances.csv", instances_csv(evaluation));
   write_text(folder / "precision_recall.csv", curve_csv(evaluation));
   write_text(folder / "precision_recall.svg", curve_svg(evaluation));
+  write_text(folder / "reliability.csv", reliability_csv(calibrations_of(evaluation)));
+  write_text(folder / "reliability.svg", reliability_svg(calibrations_of(evaluation)));
   write_text(folder / "recall_visibility.svg", visibility_svg(evaluation));
 }
 

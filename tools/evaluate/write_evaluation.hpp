@@ -11,7 +11,7 @@ namespace posevote {
 nlohmann::ordered_json to_json(const Evaluation& evaluation);
 
 /// Writes evaluation.json, evaluation.csv, instances.csv, precision_recall.csv,
-/// precision_recall.svg and recall_visibility.svg. Throws std::runtime_error naming a file that
+/// precision_recall.svg, reliability.csv, reliability.svg and recall_visibility.svg. Throws std::runtime_error naming a file that
 /// cannot be written.
 void write_evaluation(const Evaluation& evaluation, const std::filesystem::path& folder);
 

@@ -55,6 +55,21 @@ std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
   return methods;
 }
 
+std::vector<Method> methods_of(const ExperimentCommand& command) {
+  const bool ranges = command.name == "ranges";
+  if (!ranges && !command.scales.empty())
+    throw std::invalid_argument("--scales belongs to the experiment ranges");
+  std::vector<Method> methods = find_methods(
+      ranges && command.methods.empty() ? std::vector<std::string>{"posevote"} : command.methods);
+  for (const double scale : command.scales) {
+    char name[40], value[40];
+    std::snprintf(name, sizeof name, "posevote_%gmm", 1000 * scale);
+    std::snprintf(value, sizeof value, "derive_scale.resolution=%g", scale);
+    methods.push_back({name, "recognize", {value}});
+  }
+  return methods;
+}
+
 std::string to_csv(const nlohmann::ordered_json& rows) {
   std::string head, text;
   for (const auto& row : rows) {
@@ -80,6 +95,7 @@ void write_report(const std::filesystem::path& base, const std::string& json,
 
 int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted) {
   const std::filesystem::path out = command.out.empty() ? "out/" + command.name : command.out;
+  if (command.name == "calibration") return calibration_experiment(command, out);
   if (command.name == "ablation") return ablation_experiment(command, out, interrupted);
   return command.name == "sensitivity" ? sensitivity_experiment(command, out, interrupted)
                                        : recognition_experiment(command, out, interrupted);

@@ -12,44 +12,18 @@
 #include "tools/commands.hpp"
 #include "tools/evaluate/evaluate.hpp"
 #include "tools/evaluate/write_evaluation.hpp"
+#include "tools/experiment/conditions.hpp"
 #include "tools/experiment/experiment.hpp"
+#include "tools/experiment/protocol.hpp"
 #include "tools/inputs.hpp"
 #include "tools/plot/line_chart.hpp"
 #include "tools/simulate/simulate.hpp"
+#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What the paper did, and what it and others reached on the real set.
-struct Protocol {
-  std::string name;
-  std::string rule;        ///< of evaluate
-  std::size_t quick_step;  ///< --quick takes every so manieth image
-  const char* paper;
-};
-
-const Protocol& find_protocol(const std::string& name) {
-  static const std::vector<Protocol> protocols = {
-      {"uwa", "pose", 25,
-       "The paper on the real UWA set (recall): pose clustering 1.00 (precision 0.969), RoPS "
-       "0.989,\n"
-       "EM 0.975, tensor matching 0.966, PPF* 0.936, spin images 0.878.\n"},
-      {"queens", "pose", 27,
-       "The paper on the real Queen's set (recall): pose clustering 1.00 (precision 1.00), PPF* "
-       "0.992,\nRoPS 0.954, VD-LSD 0.838, EM 0.824.\n"},
-      {"icbin", "adi15", 60,
-       "The paper on the real bin-picking set (recall, top 10; coffee cup / juice): pose "
-       "clustering\n"
-       "0.638 / 0.449, PPF* 0.474 / 0.279, Doumanoglou 0.335 / 0.251, Tejani 0.314 / 0.248.\n"},
-      {"icmi", "adi15", 100,
-       "The paper on the real domestic set (best F1; cup, shampoo, joystick, camera, juice, milk;\n"
-       "average): pose clustering 0.993 0.709 0.973 0.711 0.975 0.776; 0.856. Doumanoglou 0.932 "
-       "0.735\n0.924 0.903 0.819 0.510; 0.803. Tejani 0.633, Drost 0.511, LINEMOD 0.498.\n"}};
-  return *std::find_if(protocols.begin(), protocols.end(),
-                       [&](const Protocol& protocol) { return protocol.name == name; });
-}
 
 /// One method's line of the table.
 struct Row {
@@ -64,6 +38,10 @@ std::size_t step_of(const ExperimentCommand& command) {
   return command.quick ? find_protocol(command.name).quick_step : 1;
 }
 
+std::string spec_of(const ExperimentCommand& command) {
+  return POSEVOTE_SOURCE_DIR "/configs/" + command.name + "_scenes.yaml";
+}
+
 /// The data set to use; the replica is made where it is not there yet, without images that nobody
 /// will look at.
 fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
@@ -71,9 +49,8 @@ fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
   const std::size_t step = step_of(command);
   fs::path dataset = out / (step == 1 ? "replica" : "replica_every_" + std::to_string(step));
   if (fs::exists(dataset)) return dataset;
-  const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + command.name + "_scenes.yaml";
   spdlog::info("no --dataset: making the replica");
-  simulate(spec, dataset, step);
+  simulate(spec_of(command), dataset, step);
   return dataset;
 }
 
@@ -233,12 +210,23 @@ plot::Chart recall_over_visibility(const std::vector<Row>& rows) {
   return chart;
 }
 
+/// What the spec of a replica varies, if anything: prints and writes OUT_conditions.{json,csv,md,svg}.
+void report_conditions(const std::vector<MethodCounts>& methods, const fs::path& base) {
+  if (methods[0].counts.empty()) return;
+  const std::string tables = to_markdown(methods);
+  std::printf("\n%s", tables.c_str());
+  const nlohmann::ordered_json rows = to_json(methods);
+  write_text(base.string() + "_conditions.md", tables);
+  write_report(base.string() + "_conditions", rows.dump(1) + "\n", to_csv(rows),
+               conditions_svg(methods));
+}
+
 }  // namespace
 
 int recognition_experiment(const ExperimentCommand& command, const fs::path& out,
                            const std::atomic<bool>& interrupted) {
   const Protocol& protocol = find_protocol(command.name);
-  const std::vector<Method> methods = find_methods(command.methods);
+  const std::vector<Method> methods = methods_of(command);
   fs::create_directories(out);
   const fs::path dataset = find_dataset(command, out);
   const std::string split = "test";
@@ -249,6 +237,7 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
 
   int worst = 0;
   std::vector<Row> rows;
+  std::vector<MethodCounts> conditions;
   for (const Method& method : methods) {
     std::printf("%s\n", method.name.c_str());
     std::fflush(stdout);
@@ -258,8 +247,12 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
     EvaluateOptions options;
     options.rules = protocol.rule;
     options.results = (out / method.name / "results.csv").string();
-    rows.push_back({method.name, evaluate(truth, read_results_csv(options.results), options),
+    const std::vector<FoundInstance> found = read_results_csv(options.results);
+    rows.push_back({method.name, evaluate(truth, found, options),
                     seconds_per_image(out / method.name / "results.json")});
+    if (replica)
+      conditions.push_back({method.name, split_by_conditions(truth, found, options,
+                                                             spec_of(command), step_of(command))});
     write_evaluation(rows.back().evaluation, out / method.name / "evaluation");
   }
   const std::string source =
@@ -268,6 +261,7 @@ int recognition_experiment(const ExperimentCommand& command, const fs::path& out
   print_table(rows);
   print_objects(rows);
   std::printf("\n%s", protocol.paper);
+  if (replica) report_conditions(conditions, out / command.name);
   const nlohmann::ordered_json table{{"dataset", source}, {"rows", to_json(rows)}};
   write_report(out / command.name, table.dump(1) + "\n", to_csv(table["rows"]),
                plot::to_svg({precision_recall(rows), recall_over_visibility(rows)}));

@@ -8,12 +8,20 @@ namespace {
 
 void add_options(CLI::App& app, ExperimentCommand& command) {
   app.footer(
-      "Example:\n  posevote experiment sensitivity --dataset bunny.ply\n\n"
-      "Runs our method and its rivals on one data set and prints the paper's table with ours "
-      "beside\nit; CSV and plots go to --out. A run that was stopped goes on where it was.");
-  app.add_option("name", command.name, "sensitivity, uwa, queens, icbin, icmi or ablation")
-      ->required()
-      ->check(CLI::IsMember({"sensitivity", "uwa", "queens", "icbin", "icmi", "ablation"}));
+      "Examples:\n  posevote experiment sensitivity --dataset bunny.ply\n"
+      "  posevote experiment parts --every 10\n"
+      "  posevote experiment ranges --scales 0.001 0.002 0.004\n"
+      "  posevote experiment calibration --runs lmo=out/lmo/results.csv "
+      "ycbv=out/ycbv/results.csv\n\n"
+      "uwa, queens, icbin, icmi: our method and its rivals on one data set, the paper's table with "
+      "ours\nbeside it. parts, household: the same on CAD parts at three noise levels, and on "
+      "objects of\nYCB's sizes. ranges: recall over distance and noise. calibration: how far the "
+      "scores of\nresults can be believed as probabilities. CSV and plots go to --out. A run that "
+      "was stopped\ngoes on where it was.");
+  const std::vector<std::string> names{"sensitivity", "uwa",     "queens",    "icbin",
+                                       "icmi",        "parts",   "household", "ranges",
+                                       "calibration", "ablation"};
+  app.add_option("name", command.name, "Which one")->required()->check(CLI::IsMember(names));
   app.add_option("--dataset", command.dataset,
                  "The real data (sensitivity: a mesh in m); default: a replica is made")
       ->type_name("PATH");
@@ -23,6 +31,13 @@ void add_options(CLI::App& app, ExperimentCommand& command) {
   app.add_option("--every", command.every, "Take one image of so many; of sets of images only")
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
+  app.add_option("--scales", command.scales, "Ranges: fixed resolutions to compare with")
+      ->type_name("METRES")
+      ->check(number_in(0.0001, 0.1));
+  app.add_option("--runs", command.runs, "Calibration: data sets and results of runs on them")
+      ->type_name("DATASET=RESULTS");
+  app.add_option("--rule", command.rule, "Calibration: when a pose is right; default add")
+      ->type_name("RULE");
   app.add_option("--sets", command.sets, "Ablation: replicas, CONFIG=DIR for real sets")
       ->type_name("SET");
   app.add_option("--terms", command.terms, "Ablation: only these parameters")->type_name("PARAM");
@@ -30,7 +45,7 @@ void add_options(CLI::App& app, ExperimentCommand& command) {
 }
 
 const auto registered = register_command<ExperimentCommand>(
-    "experiment", "Repeat one of the paper's experiments", add_options,
+    "experiment", "Repeat one of the paper's experiments, or of ours", add_options,
     [](const ExperimentCommand& command) {
       return with_threads(0, [&] { return experiment_command(command, end_in_order()); });
     });

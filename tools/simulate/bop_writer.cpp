@@ -20,7 +20,6 @@ using nlohmann::ordered_json;
 constexpr const char *kModels = "models", *kSplit = "test", *kScans = "scans",
                      *kTargets = "test_targets_bop19.json";
 constexpr int kSceneId = 1;
-constexpr double kLeastVisible = 0.1;  // BOP's targets leave out what is seen less
 
 std::string six_digits(int number) {
   char text[16];
@@ -55,6 +54,17 @@ double rounded(double value) { return std::round(value * 1e9) / 1e9 + 0.0; }
 
 ordered_json box(const PixelBox& box) { return {box.x, box.y, box.width, box.height}; }
 
+/// A turn about the origin as BOP writes transforms: 4 x 4.
+ordered_json row_by_row(const Eigen::Matrix3d& turn) {
+  ordered_json list;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) list.push_back(rounded(turn(row, column)));
+    list.push_back(0.0);
+  }
+  for (const double value : {0.0, 0.0, 0.0, 1.0}) list.push_back(value);
+  return list;
+}
+
 ordered_json pose(const Body& body, const Eigen::Isometry3d& T_world_sensor) {
   const Eigen::Isometry3d T_sensor_model = T_world_sensor.inverse() * body.T_world_body;
   std::vector<double> rotation, translation;
@@ -78,13 +88,14 @@ ordered_json info(const BodyView& view) {
 
 }  // namespace
 
-BopWriter::BopWriter(fs::path out) : out_(std::move(out)) {
+BopWriter::BopWriter(fs::path out, double least_visible)
+    : out_(std::move(out)), least_visible_(least_visible) {
   for (const fs::path& folder :
        {out_ / kModels, out_ / kSplit / six_digits(kSceneId) / "depth", out_ / kScans})
     fs::create_directories(folder);  // std::filesystem_error is a runtime_error that names it
 }
 
-void BopWriter::add_model(int obj_id, const Mesh& mesh, bool is_round) {
+void BopWriter::add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& symmetry) {
   formats::write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
   ordered_json entry{{"diameter", rounded(geometry::diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
@@ -92,7 +103,10 @@ void BopWriter::add_model(int obj_id, const Mesh& mesh, bool is_round) {
   const std::string axes[3] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) entry["min_" + axes[axis]] = rounded(low[axis] * 1000.0);
   for (int axis = 0; axis < 3; ++axis) entry["size_" + axes[axis]] = rounded(size[axis] * 1000.0);
-  if (is_round) entry["symmetries_continuous"] = {{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}};
+  if (symmetry.is_round)
+    entry["symmetries_continuous"] = {{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}};
+  for (const Eigen::Matrix3d& turn : symmetry.turns)
+    entry["symmetries_discrete"].push_back(row_by_row(turn));
   models_info_[std::to_string(obj_id)] = entry;
 }
 
@@ -112,7 +126,7 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
     if (bodies[i].obj_id == 0) continue;
     gt_[key].push_back(pose(bodies[i], T_world_sensor));
     gt_info_[key].push_back(info(scan.views[i]));
-    if (scan.views[i].fraction() >= kLeastVisible) ++seen[bodies[i].obj_id];
+    if (scan.views[i].fraction() >= least_visible_) ++seen[bodies[i].obj_id];
   }
   for (const auto& [obj_id, count] : seen)
     targets_.push_back(

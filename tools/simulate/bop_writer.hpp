@@ -8,16 +8,17 @@
 
 #include "nodes/data/cloud.hpp"
 #include "tools/simulate/scanner.hpp"
+#include "tools/simulate/shapes.hpp"
 
 namespace posevote {
 
 class BopWriter {
  public:
-  /// Makes the folder. Throws std::runtime_error where it cannot be made.
-  explicit BopWriter(std::filesystem::path out);
+  /// Makes the folder. Targets leave out instances less visible than `least_visible`. Throws
+  /// std::runtime_error where the folder cannot be made.
+  BopWriter(std::filesystem::path out, double least_visible);
 
-  /// `is_round`: it looks the same however it is turned about z.
-  void add_model(int obj_id, const Mesh& mesh, bool is_round);
+  void add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& symmetry);
   /// The next image (0, 1 ...) of scene 1. Bodies with an obj_id of 0 are not part of the truth.
   void add_image(const std::vector<Body>& bodies, const Sensor& sensor,
                  const Eigen::Isometry3d& T_world_sensor, const SimulatedScan& scan);
@@ -28,6 +29,7 @@ class BopWriter {
 
  private:
   std::filesystem::path out_;
+  double least_visible_;
   int images_ = 0;
   nlohmann::ordered_json models_info_, cameras_, gt_, gt_info_;
   nlohmann::ordered_json targets_ = nlohmann::ordered_json::array();

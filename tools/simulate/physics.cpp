@@ -4,10 +4,11 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <set>
+
+#include "tools/simulate/pieces.hpp"
+#include "tools/simulate/split_faces.hpp"
 
 namespace posevote {
 namespace {
@@ -18,16 +19,11 @@ constexpr double kMargin = 0.0005, kGap = 0.01;       // [m]
 constexpr double kStep = 1.0 / 250;                   // [s]
 constexpr int kFall = 100, kLongest = 750;            // [steps]
 constexpr double kStill = 0.01, kStillTurning = 0.1;  // [m/s], [rad/s]
-constexpr int kPieces = 6;                            // along the longest side
 
 btVector3 to_bullet(const Eigen::Vector3d& v) {
   const Eigen::Vector3d scaled = v * kUnits;
   return {static_cast<btScalar>(scaled.x()), static_cast<btScalar>(scaled.y()),
           static_cast<btScalar>(scaled.z())};
-}
-
-Eigen::Vector3d corner(const Mesh& mesh, Eigen::Index face, int k) {
-  return mesh.points.row(mesh.faces(face, k)).transpose().cast<double>();
 }
 
 struct Mass {
@@ -38,8 +34,8 @@ struct Mass {
 Mass mass_of(const Mesh& mesh) {
   Mass mass;
   for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
-    const Eigen::Vector3d a = corner(mesh, face, 0), b = corner(mesh, face, 1),
-                          c = corner(mesh, face, 2);
+    const Eigen::Matrix3d corners = corners_of(mesh, face);
+    const Eigen::Vector3d a = corners.col(0), b = corners.col(1), c = corners.col(2);
     const double part = a.dot(b.cross(c)) / 6;  // of the tetrahedron to the origin
     mass.volume += part;
     mass.center += part * (a + b + c) / 4;
@@ -48,29 +44,10 @@ Mass mass_of(const Mesh& mesh) {
   return mass;
 }
 
-/// The corners of each piece of a surface that cubes cut out of it.
-std::vector<std::set<std::uint32_t>> cut_up(const Mesh& mesh) {
-  const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
-  const double cube = (mesh.points.colwise().maxCoeff() - low).maxCoeff() / double{kPieces};
-  std::map<std::array<int, 3>, std::set<std::uint32_t>> pieces;
-  for (Eigen::Index face = 0; face < mesh.faces.rows(); ++face) {
-    const Eigen::Vector3d middle =
-        (corner(mesh, face, 0) + corner(mesh, face, 1) + corner(mesh, face, 2)) / 3 -
-        low.transpose().cast<double>();
-    std::array<int, 3> key{};
-    for (int axis = 0; axis < 3; ++axis)
-      key[static_cast<std::size_t>(axis)] = static_cast<int>(middle[axis] / cube);
-    for (int k = 0; k < 3; ++k) pieces[key].insert(mesh.faces(face, k));
-  }
-  std::vector<std::set<std::uint32_t>> list;
-  list.reserve(pieces.size());
-  for (auto& [key, corners] : pieces) list.push_back(std::move(corners));
-  return list;
-}
-
 /// The corners that reach farthest in any of the 26 directions of a cube's neighbours:
 /// about their convex hull, of a size that collisions are found fast with.
-std::set<std::uint32_t> extremes(const Mesh& mesh, const std::set<std::uint32_t>& corners) {
+std::set<std::uint32_t> extremes(const PointMatrix& points,
+                                 const std::set<std::uint32_t>& corners) {
   std::set<std::uint32_t> found;
   for (int i = 0; i < 27; ++i) {
     const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
@@ -79,7 +56,7 @@ std::set<std::uint32_t> extremes(const Mesh& mesh, const std::set<std::uint32_t>
     if (direction.isZero()) continue;
     found.insert(
         *std::max_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
-          return mesh.points.row(a) * direction < mesh.points.row(b) * direction;
+          return points.row(a) * direction < points.row(b) * direction;
         }));
   }
   return found;
@@ -96,7 +73,8 @@ class Solid {
                    .rowwise()
                    .norm()
                    .maxCoeff()) {
-    for (const std::set<std::uint32_t>& piece : cut_up(mesh)) add_hull(mesh, piece);
+    const Pieces pieces = cut_up(mesh);
+    for (const std::set<std::uint32_t>& piece : pieces.list) add_hull(pieces.points, piece);
     constexpr double kDensity = 300;  // [kg/m^3]
     const auto mass = static_cast<btScalar>(kDensity * whole.volume);
     btVector3 inertia(0, 0, 0);
@@ -137,10 +115,10 @@ class Solid {
   }
 
  private:
-  void add_hull(const Mesh& mesh, const std::set<std::uint32_t>& corners) {
+  void add_hull(const PointMatrix& points, const std::set<std::uint32_t>& corners) {
     auto hull = std::make_unique<btConvexHullShape>();
-    for (const std::uint32_t i : extremes(mesh, corners))
-      hull->addPoint(to_bullet(mesh.points.row(i).transpose().cast<double>() - center_), false);
+    for (const std::uint32_t i : extremes(points, corners))
+      hull->addPoint(to_bullet(points.row(i).transpose().cast<double>() - center_), false);
     hull->recalcLocalAabb();
     hull->setMargin(static_cast<btScalar>(kMargin * kUnits));
     compound_.addChildShape(btTransform::getIdentity(), hull.get());

@@ -6,6 +6,7 @@
 
 #include "graph/parallel.hpp"
 #include "tools/simulate/ray_caster.hpp"
+#include "tools/simulate/split_faces.hpp"
 
 namespace posevote {
 namespace {
@@ -105,15 +106,18 @@ bool is_seen(const Eigen::Vector3d& point, std::size_t body, const Sensor& senso
 
 double seen_surface(const Body& body, std::size_t index, const Sensor& sensor,
                     const RayCaster& caster) {
+  constexpr double kFine = 0.1;  // of the longest side: as much as a triangle speaks for at most
   const std::vector<Eigen::Vector3f>& vertices = caster.vertices(index);
+  const double longest = kFine * longest_side(*body.mesh);
   double all = 0, seen = 0;
   for (Eigen::Index face = 0; face < body.mesh->faces.rows(); ++face) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = vertices[body.mesh->faces(face, k)].cast<double>();
-    const double area =
-        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
-    all += area;
-    if (is_seen(corners.rowwise().mean(), index, sensor, caster)) seen += area;
+    for_each_part(corners, longest, [&](const Eigen::Matrix3d& part) {
+      const double area = (part.col(1) - part.col(0)).cross(part.col(2) - part.col(0)).norm() / 2;
+      all += area;
+      if (is_seen(part.rowwise().mean(), index, sensor, caster)) seen += area;
+    });
   }
   return all > 0 ? seen / all : 0;
 }

@@ -23,7 +23,10 @@ const std::map<std::string, Sensor>& sensors() {
     // 2012, eq. 11), the projector's shadow beside edges, holes.
     Sensor rgbd{640, 480,  {570, 570, 319.5, 239.5, 1.0}, 0, 0.001425, 0.2, 0.00285, 0.02,
                 12,  false};
-    return std::map<std::string, Sensor>{{"laser", laser}, {"sweep", sweep}, {"rgbd", rgbd}};
+    // Noise alone, as much as a scene asks for: what methods do under it can be told.
+    Sensor plain{640, 480, {570, 570, 319.5, 239.5, 0.05}, 0.001, 0, 0.2, 0, 0, 0, false};
+    return std::map<std::string, Sensor>{
+        {"laser", laser}, {"sweep", sweep}, {"rgbd", rgbd}, {"plain", plain}};
   }();
   return known;
 }
@@ -86,7 +89,7 @@ void thin_rows(formats::DepthImage& image, Random random) {
 }  // namespace
 
 const std::vector<std::string>& sensor_names() {
-  static const std::vector<std::string> names{"laser", "sweep", "rgbd"};
+  static const std::vector<std::string> names{"laser", "sweep", "rgbd", "plain"};
   return names;
 }
 

@@ -25,7 +25,7 @@ struct Sensor {
   bool uneven = false;        ///< rows are left out, more in some parts than in others
 };
 
-/// Names of sensors: "laser", "sweep", "rgbd".
+/// Names of sensors: "laser", "sweep", "rgbd", "plain".
 const std::vector<std::string>& sensor_names();
 /// Throws std::invalid_argument for an unknown name.
 Sensor find_sensor(const std::string& name);

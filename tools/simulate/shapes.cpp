@@ -8,6 +8,8 @@
 
 #include "tools/simulate/fields.hpp"
 #include "tools/simulate/goods.hpp"
+#include "tools/simulate/household.hpp"
+#include "tools/simulate/parts.hpp"
 #include "tools/simulate/surface_nets.hpp"
 
 namespace posevote {
@@ -148,20 +150,57 @@ Field figure(Random& random) {
   return roughen(body, random, 4, 3, 0.012);
 }
 
+/// A kind: a field that is meshed finely, or a mesh as it is.
 struct Shape {
-  Field (*field)(Random&);
-  int cells;  ///< that mesh half the space: more where walls are thin
-  bool is_round = false;
+  Field (*field)(Random&) = nullptr;
+  int cells = 0;  ///< that mesh half the space: more where walls are thin
+  Mesh (*mesh)(Random&) = nullptr;
+  int fold = 1;  ///< so many turns about z map it onto itself; 0: any
 };
+
+Shape fine(Field (*field)(Random&), int cells, int fold = 1) { return {field, cells, {}, fold}; }
+Shape coarse(Mesh (*mesh)(Random&), int fold = 1) { return {nullptr, 0, mesh, fold}; }
 
 const std::map<std::string, Shape>& shapes() {
   constexpr int kRich = 42, kFine = 64;
-  static const std::map<std::string, Shape> known{
-      {"boulder", {boulder, kRich}}, {"coral", {coral, kRich}},   {"figure", {figure, kRich}},
-      {"horn", {horn, kRich}},       {"kettle", {kettle, kRich}}, {"wrench", {wrench, kRich}},
-      {"camera", {camera, kFine}},   {"cup", {cup, kFine, true}}, {"joystick", {joystick, kFine}},
-      {"juice", {juice, kFine}},     {"milk", {milk, kFine}},     {"shampoo", {shampoo, kFine}}};
+  static const std::map<std::string, Shape> known{{"boulder", fine(boulder, kRich)},
+                                                  {"coral", fine(coral, kRich)},
+                                                  {"figure", fine(figure, kRich)},
+                                                  {"horn", fine(horn, kRich)},
+                                                  {"kettle", fine(kettle, kRich)},
+                                                  {"wrench", fine(wrench, kRich)},
+                                                  {"camera", fine(camera, kFine)},
+                                                  {"cup", fine(cup, kFine, 0)},
+                                                  {"joystick", fine(joystick, kFine)},
+                                                  {"juice", fine(juice, kFine)},
+                                                  {"milk", fine(milk, kFine)},
+                                                  {"shampoo", fine(shampoo, kFine)},
+                                                  {"can", coarse(can, 0)},
+                                                  {"flange", coarse(flange, 4)},
+                                                  {"bolt", coarse(bolt, 6)},
+                                                  {"bracket", coarse(bracket)},
+                                                  {"gear", coarse(gear, 12)},
+                                                  {"tee", coarse(tee, 2)},
+                                                  {"carton", coarse(carton, 2)},
+                                                  {"plate", coarse(plate)},
+                                                  {"tin", coarse(tin, 2)},
+                                                  {"bottle", coarse(bottle, 2)},
+                                                  {"bowl", coarse(bowl, 0)},
+                                                  {"mug", coarse(mug)},
+                                                  {"pitcher", coarse(pitcher)},
+                                                  {"banana", coarse(banana)},
+                                                  {"drill", coarse(drill)},
+                                                  {"scissors", coarse(scissors)},
+                                                  {"marker", coarse(marker, 0)},
+                                                  {"clamp", coarse(clamp)}};
   return known;
+}
+
+std::vector<std::string> names_of(bool all) {
+  std::vector<std::string> list;
+  for (const auto& [name, shape] : shapes())
+    if (all || shape.field) list.push_back(name);
+  return list;
 }
 
 /// Whether each edge joins exactly two triangles. Surface nets pinch the surface where two sheets
@@ -190,27 +229,56 @@ const Shape& find_shape(const std::string& name) {
   return found->second;
 }
 
+/// Of its own size, anywhere.
+Mesh raw_mesh(const std::string& shape, std::uint64_t seed) {
+  const Shape& kind = find_shape(shape);
+  Random random(seed);
+  return kind.mesh ? kind.mesh(random) : mesh_of(kind.field(random), kind.cells);
+}
+
+/// Moves the bounding box' middle to the origin; gives its sides.
+Eigen::RowVector3f center(Mesh& mesh) {
+  const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
+  const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
+  mesh.points.rowwise() -= 0.5F * (low + high);
+  return high - low;
+}
+
 }  // namespace
 
-bool is_round_shape(const std::string& shape) { return find_shape(shape).is_round; }
+ShapeSymmetry symmetry_of(const std::string& shape) {
+  const int fold = find_shape(shape).fold;
+  ShapeSymmetry symmetry{fold == 0, {}};
+  for (int i = 1; i < fold; ++i)
+    symmetry.turns.push_back(
+        Eigen::AngleAxisd(2 * kPi * i / fold, Vector3d::UnitZ()).toRotationMatrix());
+  if (shape == "carton")
+    for (int axis = 0; axis < 2; ++axis)
+      symmetry.turns.push_back(Eigen::AngleAxisd(kPi, Vector3d::Unit(axis)).toRotationMatrix());
+  return symmetry;
+}
 
 const std::vector<std::string>& shape_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& [name, make] : shapes()) list.push_back(name);
-    return list;
-  }();
+  static const std::vector<std::string> names = names_of(true);
+  return names;
+}
+
+const std::vector<std::string>& fine_shape_names() {
+  static const std::vector<std::string> names = names_of(false);
   return names;
 }
 
 Mesh make_shape(const std::string& shape, std::uint64_t seed, double size) {
-  const Shape& kind = find_shape(shape);
-  Random random(seed);
-  Mesh mesh = mesh_of(kind.field(random), kind.cells);
-  const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
-  const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
-  mesh.points.rowwise() -= 0.5F * (low + high);
-  mesh.points *= static_cast<float>(size) / (high - low).maxCoeff();
+  Mesh mesh = raw_mesh(shape, seed);
+  const Eigen::RowVector3f sides = center(mesh);
+  mesh.points *= static_cast<float>(size) / sides.maxCoeff();
+  return mesh;
+}
+
+Mesh make_shape(const std::string& shape, std::uint64_t seed, const Eigen::Vector3d& sides) {
+  Mesh mesh = raw_mesh(shape, seed);
+  const Eigen::RowVector3f own = center(mesh);
+  mesh.points.array().rowwise() *= sides.transpose().cast<float>().array() / own.array();
   return mesh;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Procedural objects: closed, wound outward. Free forms, asymmetric and rich in features, and goods
-// (goods.hpp). Each shape is a kind; each seed makes another individual of it.
+// (goods.hpp), both finely meshed; parts (parts.hpp) and household objects (household.hpp) of few
+// triangles. Each shape is a kind; each seed makes another individual of it.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,11 +16,22 @@ namespace posevote {
 /// Kinds of objects: "boulder", "horn", "coral" ...
 const std::vector<std::string>& shape_names();
 
-/// Whether the kind looks the same however it is turned about z.
-bool is_round_shape(const std::string& shape);
+/// Those of them that are finely meshed, which clutter is made of.
+const std::vector<std::string>& fine_shape_names();
 
-/// A mesh of about 5 000 to 50 000 vertices whose bounding box is centred at the origin and `size`
-/// [m] long on its longest side. Throws std::invalid_argument for an unknown shape.
+/// How a kind maps onto itself, about its bounding box' centre.
+struct ShapeSymmetry {
+  bool is_round = false;                 ///< however it is turned about z
+  std::vector<Eigen::Matrix3d> turns{};  ///< without the identity
+};
+ShapeSymmetry symmetry_of(const std::string& shape);
+
+/// A mesh whose bounding box is centred at the origin and `size` [m] long on its longest side: fine
+/// ones have about 5 000 to 50 000 vertices, the others at most 1000 triangles. Throws
+/// std::invalid_argument for an unknown shape.
 Mesh make_shape(const std::string& shape, std::uint64_t seed, double size);
+
+/// The same, stretched to the three sides of a box [m].
+Mesh make_shape(const std::string& shape, std::uint64_t seed, const Eigen::Vector3d& sides);
 
 }  // namespace posevote

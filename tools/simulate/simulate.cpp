@@ -36,28 +36,31 @@ struct Studio {
   std::vector<SharedMesh> models, clutter;
 };
 
-SharedMesh make_mesh(const std::string& shape, std::uint64_t seed, double size) {
-  return std::make_shared<const Mesh>(make_shape(shape, seed, size));
+SharedMesh make_model(const ModelSpec& model) {
+  const auto seed = static_cast<std::uint64_t>(model.seed);
+  return std::make_shared<const Mesh>(
+      model.x > 0 ? make_shape(model.shape, seed, Eigen::Vector3d(model.x, model.y, model.z))
+                  : make_shape(model.shape, seed, model.size));
 }
 
 /// Bodies of kinds that no model is of, as long as there are such kinds.
 std::vector<SharedMesh> make_clutter(const Spec& spec) {
-  std::vector<std::string> kinds = shape_names();
+  std::vector<std::string> kinds = fine_shape_names();
   for (const ModelSpec& model : spec.models) std::erase(kinds, model.shape);
-  if (kinds.empty()) kinds = shape_names();
+  if (kinds.empty()) kinds = fine_shape_names();
   std::vector<SharedMesh> clutter(kClutter);
   graph::parallel_for(kClutter, 1, [&](std::size_t i) {
     Random random(static_cast<std::uint64_t>(spec.seed), ~std::uint64_t{i});  // no image's stream
-    clutter[i] = make_mesh(kinds[i % kinds.size()], random.next(), random.uniform(0.08, 0.2));
+    const double size = random.uniform(0.08, 0.2);
+    clutter[i] =
+        std::make_shared<const Mesh>(make_shape(kinds[i % kinds.size()], random.next(), size));
   });
   return clutter;
 }
 
 Studio open_studio(const Spec& spec) {
   Studio studio{spec, {}, {}};
-  for (const ModelSpec& model : studio.spec.models)
-    studio.models.push_back(
-        make_mesh(model.shape, static_cast<std::uint64_t>(model.seed), model.size));
+  for (const ModelSpec& model : studio.spec.models) studio.models.push_back(make_model(model));
   const auto wants_clutter = [](const SceneSpec& scene) { return scene.clutter > 0; };
   if (std::any_of(studio.spec.scenes.begin(), studio.spec.scenes.end(), wants_clutter))
     studio.clutter = make_clutter(studio.spec);
@@ -116,6 +119,7 @@ Image make_image(const Studio& studio, std::size_t index) {
   const SceneSpec& scene = studio.spec.scenes[index];
   Image image;
   image.sensor = find_sensor(scene.sensor);
+  if (scene.noise != kSensorsOwn) image.sensor.noise = scene.noise, image.sensor.noise_z2 = 0;
   Random random(static_cast<std::uint64_t>(studio.spec.seed), index);
   for (int i = 0; i < kArrangements; ++i) {
     image.bodies = arrange(scene, studio, random);
@@ -190,10 +194,10 @@ void simulate(const std::string& spec_file, const fs::path& out, std::size_t ste
     throw std::invalid_argument(out.string() + ": is not an empty folder; choose another --out");
   remove_unfinished(unfinished);
   const Studio studio = open_studio(spec);
-  BopWriter writer(unfinished);
+  BopWriter writer(unfinished, spec.least_visible);
   for (std::size_t i = 0; i < studio.models.size(); ++i)
     writer.add_model(static_cast<int>(i) + 1, *studio.models[i],
-                     is_round_shape(studio.spec.models[i].shape));
+                     symmetry_of(studio.spec.models[i].shape));
   make_images(studio, step, writer);
   writer.finish();
   if (!exists) return fs::rename(unfinished, folder);

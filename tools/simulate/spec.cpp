@@ -27,7 +27,10 @@ const std::vector<ParamSpec>& model_params() {
                             one_of(shape_names())),
       make_param<ModelSpec>("seed", &ModelSpec::seed, "", "Which one of that kind.",
                             in_range(0, 1e9)),
-      make_param<ModelSpec>("size", &ModelSpec::size, "m", "Longest side.", in_range(0.02, 1))};
+      make_param<ModelSpec>("size", &ModelSpec::size, "m", "Longest side.", in_range(0.02, 1)),
+      make_param<ModelSpec>("x", &ModelSpec::x, "m", "Side along x.", in_range(0.005, 1)),
+      make_param<ModelSpec>("y", &ModelSpec::y, "m", "Side along y.", in_range(0.005, 1)),
+      make_param<ModelSpec>("z", &ModelSpec::z, "m", "Side along z.", in_range(0.005, 1))};
   return params;
 }
 
@@ -38,6 +41,8 @@ const std::vector<ParamSpec>& scene_params() {
       make_param<SceneSpec>("ground", &SceneSpec::ground, "", "What bodies lie on.",
                             one_of({"table", "bin", "unseen"})),
       make_param<SceneSpec>("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
+      make_param<SceneSpec>("noise", &SceneSpec::noise, "m", "Deviation of ranges.",
+                            in_range(0, 0.05)),
       make_param<SceneSpec>("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
       make_param<SceneSpec>("radius", &SceneSpec::radius, "m", "Bodies drop inside.",
                             in_range(0.01, 1)),
@@ -56,7 +61,9 @@ const std::vector<ParamSpec>& scene_params() {
 
 const std::vector<ParamSpec>& file_params() {
   static const std::vector<ParamSpec> params{
-      make_param<Spec>("seed", &Spec::seed, "", "Poses and noise.", in_range(0, 1e9))};
+      make_param<Spec>("seed", &Spec::seed, "", "Poses and noise.", in_range(0, 1e9)),
+      make_param<Spec>("least_visible", &Spec::least_visible, "", "Of instances that count.",
+                       in_range(0, 1))};
   return params;
 }
 
@@ -168,6 +175,8 @@ Spec read_root(Reader& reader, const YAML::Node& root) {
     reader.read_map(item, subject, model_params(), &model, {});
     if (item.IsMap() && !item["shape"].IsDefined())
       reader.report(item, subject + ".shape", "missing");
+    const int sides = (model.x > 0) + (model.y > 0) + (model.z > 0);
+    if (sides != 0 && sides != 3) reader.report(item, subject, "expected all of x, y, z or none");
   }
   int number = 0;
   for (const YAML::Node& item : reader.list(root, "", "scenes")) {

@@ -10,26 +10,31 @@ namespace posevote {
 struct ModelSpec {
   std::string shape;
   int seed = 1;
-  double size = 0.2;  ///< longest side of the bounding box [m]
+  double size = 0.2;           ///< longest side of the bounding box [m]
+  double x = 0, y = 0, z = 0;  ///< all three sides, where given: the shape is stretched to them [m]
 };
+
+inline constexpr double kSensorsOwn = -1;
 
 /// One image, or several of a kind.
 struct SceneSpec {
   int count = 1;                 ///< images, each with another arrangement of its bodies
   std::string ground = "table";  ///< or "bin", or "unseen"
   std::string sensor = "laser";
-  std::vector<int> objects;  ///< obj_id of each instance
-  int clutter = 3;           ///< bodies that are no models
-  double radius = 0.15;      ///< within which bodies are dropped; of a bin, half its side [m]
-  double least_surface = 0;  ///< that is seen of each object's; else bodies are dropped anew
-  double most_surface = 1;   ///< likewise
-  double distance = 0.9;     ///< from sensor to the middle of the table [m]
-  double elevation = 50;     ///< of the sensor above the table [deg]
-  double azimuth = 0;        ///< [deg]
+  double noise = kSensorsOwn;  ///< deviation of ranges at any distance, instead of the sensor's [m]
+  std::vector<int> objects;    ///< obj_id of each instance
+  int clutter = 3;             ///< bodies that are no models
+  double radius = 0.15;        ///< within which bodies are dropped; of a bin, half its side [m]
+  double least_surface = 0;    ///< that is seen of each object's; else bodies are dropped anew
+  double most_surface = 1;     ///< likewise
+  double distance = 0.9;       ///< from sensor to the middle of the table [m]
+  double elevation = 50;       ///< of the sensor above the table [deg]
+  double azimuth = 0;          ///< [deg]
 };
 
 struct Spec {
   int seed = 1;
+  double least_visible = 0.1;     ///< share of an instance's pixels; less visible ones do not count
   std::vector<ModelSpec> models;  ///< obj_id 1, 2 ...
   std::vector<SceneSpec> scenes;  ///< one an image: those of a kind are repeated
 };

@@ -21,6 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+template <class T>
+std::string bytes_of(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
 const std::string kKey(32, 'a');
 
 ModelLibrary example(const std::string& search = "exact") {
@@ -45,7 +50,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{6});
+  out.put(std::uint32_t{8});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -172,7 +177,9 @@ TEST_CASE("a file with a right checksum over a wrong payload is refused by name"
   const std::string payload = library::encode_library(library);
   const float infinite = std::numeric_limits<float>::infinity();
   std::string bad = payload;
-  std::memcpy(bad.data(), &infinite, sizeof infinite);  // the resolution comes first
+  const std::size_t place = bad.find(bytes_of(library.models[0]->resolution));
+  REQUIRE(place != std::string::npos);
+  std::memcpy(&bad[place], &infinite, sizeof infinite);
   CHECK(refusal(folder.write("good", file_around(payload))).empty());
   CHECK_THAT(refusal(folder.write("bad", file_around(bad))),
              Catch::Contains("damaged: the resolution is inf m"));
@@ -183,7 +190,7 @@ TEST_CASE("search options that are out of range are refused, whatever the search
     const std::string good = library::encode_library(example(search));
     const auto with = [&](std::size_t option, std::int32_t value) {
       std::string bad = good;
-      const std::size_t place = sizeof(float) + sizeof(std::uint64_t) + search.size();
+      const std::size_t place = sizeof(std::uint64_t) + search.size();
       std::memcpy(&bad[place + option * sizeof value], &value, sizeof value);
       return bad;
     };
@@ -221,15 +228,10 @@ TEST_CASE("fused features come back with their blocks", "[match]") {
   library.octaves = descriptors::index_octaves(library.models, {});
   std::string payload = library::encode_library(library);
   CHECK(library::decode_library(payload).models[1]->features.blocks == descriptors::Blocks{1, 2});
-  const std::uint32_t width =
-      3;  // of the last model's last block, before centre, diagonal, near symmetries and outline
-  const std::size_t center = 2 * sizeof(std::uint64_t) + 3 * sizeof(float);
-  const std::size_t outline = sizeof(float) + sizeof(std::uint64_t) + 3;
-  const std::size_t points = 2 * sizeof(std::uint64_t) + 3 * sizeof(std::uint32_t);
-  const std::size_t motions =
-      sizeof(std::uint64_t) + 2 * sizeof(std::uint64_t) + 16 * sizeof(double) + points;
-  std::memcpy(&payload[payload.size() - outline - motions - sizeof(float) - center - sizeof width],
-              &width, sizeof width);
+  const std::uint32_t one = 1, two = 2, three = 3;
+  const std::size_t last = payload.rfind(bytes_of(one) + bytes_of(two));  // of the last model
+  REQUIRE(last != std::string::npos);
+  std::memcpy(&payload[last + sizeof one], &three, sizeof three);
   CHECK_THROWS_WITH(library::decode_library(payload),
                     Catch::Contains("damaged: the features of 'm1'"));
 }
@@ -245,7 +247,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 6"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 8"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {
