@@ -14,7 +14,7 @@ namespace posevote::geometry {
 namespace {
 
 constexpr float kWidth = 6;             // x spacing, at least
-constexpr float kThin = 0.15F;          // x width: a patch no thicker than that has a plane
+constexpr float kThin = 0.08F;          // x width: a patch no thicker than that has a plane
 constexpr int kMostDoublings = 4;       // of the width
 constexpr std::size_t kFewest = 12;     // points in a patch
 constexpr std::size_t kPatches = 4000;  // enough for a median

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What counts as found, and what as false.
+// ADD-S, and confidences in the place of scores.
 #include <cmath>
 
 #include "tests/tools/truth_set.hpp"

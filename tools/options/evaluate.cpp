@@ -9,10 +9,14 @@ void add_options(CLI::App& app, EvaluateCommand& command) {
   app.footer(
       "Example:\n  posevote evaluate lmo out/today/results.csv --rules all --out out/judged\n\n"
       "Rules: pose (50 mm, 7.5 deg), drost (diameter/10, 12 deg), add and adi15 (ADD/ADI 0.1 and\n"
-      "0.15 diameter: of symmetric objects to the closest point), adds (ADD-S 0.1 diameter: of all\n"
-      "objects to the closest point), BOP's average recalls mssd, mspd, vsd, and vsd18 (SIXD 2018);\n"
-      "or all. ECE: expected calibration error of the score as the probability to be right, of all\n"
-      "detections in ten bins. A column 'confidence' behind 'time' is judged instead of the score.");
+      "0.15 diameter: of symmetric objects to the closest point), adds (ADD-S 0.1 diameter: of "
+      "all\n"
+      "objects to the closest point), BOP's average recalls mssd, mspd, vsd, and vsd18 (SIXD "
+      "2018);\n"
+      "or all. ECE: expected calibration error of the score as the probability to be right, of "
+      "all\n"
+      "detections in ten bins. A column 'confidence' behind 'time' is judged instead of the "
+      "score.");
   app.add_option("dataset", command.dataset, "A data set: BOP, SIXD 2017, UWA or Queen's")
       ->required();
   app.add_option("results", command.results, "The results.csv of a run on it")->required();

@@ -178,11 +178,10 @@ TEST_CASE("a file with a right checksum over a wrong payload is refused by name"
   const float infinite = std::numeric_limits<float>::infinity();
   std::string bad = payload;
   const std::size_t place = bad.find(bytes_of(library.models[0]->resolution));
-  REQUIRE(place != std::string::npos);
-  std::memcpy(&bad[place], &infinite, sizeof infinite);
+  std::memcpy(&bad.at(place), &infinite, sizeof infinite);
   CHECK(refusal(folder.write("good", file_around(payload))).empty());
   CHECK_THAT(refusal(folder.write("bad", file_around(bad))),
-             Catch::Contains("damaged: the resolution is inf m"));
+             Catch::Contains("damaged: model 'm1': the resolution is inf m"));
 }
 
 TEST_CASE("search options that are out of range are refused, whatever the search", "[match]") {
@@ -228,10 +227,9 @@ TEST_CASE("fused features come back with their blocks", "[match]") {
   library.octaves = descriptors::index_octaves(library.models, {});
   std::string payload = library::encode_library(library);
   CHECK(library::decode_library(payload).models[1]->features.blocks == descriptors::Blocks{1, 2});
-  const std::uint32_t one = 1, two = 2, three = 3;
-  const std::size_t last = payload.rfind(bytes_of(one) + bytes_of(two));  // of the last model
-  REQUIRE(last != std::string::npos);
-  std::memcpy(&payload[last + sizeof one], &three, sizeof three);
+  const std::uint32_t three = 3;
+  const std::size_t last = payload.rfind(bytes_of(1U) + bytes_of(2U));  // of the last model
+  std::memcpy(&payload.at(last + sizeof three), &three, sizeof three);
   CHECK_THROWS_WITH(library::decode_library(payload),
                     Catch::Contains("damaged: the features of 'm1'"));
 }
