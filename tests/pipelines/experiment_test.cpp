@@ -75,6 +75,41 @@ TEST_CASE("experiment --quick makes a small replica of each set and recognises i
   }
 }
 
+TEST_CASE("experiment ranges: recall over distance and noise, at several scales", "[experiment]") {
+  const TemporaryFolder folder;
+  // A replica that is there already is taken: of the finely meshed, which every build can train.
+  const std::string spec = folder.write("spec.yaml",
+                                        "models: [{shape: figure, seed: 31, size: 0.18}]\n"
+                                        "scenes: [{count: 2, sensor: plain, noise: 0.00005, "
+                                        "distance: 0.5, objects: [1], clutter: 0}]\n");
+  const std::string replica = (folder / "out/replica_every_54").string();
+  REQUIRE(run_posevote(folder, "simulate " + spec + " --out " + replica).status == 0);
+  const CommandResult result = run_posevote(
+      folder, "experiment ranges --every 54 --scales 0.002 --out " + (folder / "out").string());
+  INFO(result.output);
+  REQUIRE(result.status == 0);
+  CHECK(result.output.find("| posevote_2mm, recall at noise of | 0.05 mm |") != std::string::npos);
+  CHECK(read_text(folder / "out/ranges_conditions.md").find("| 0.5 m | 1.000 |") !=
+        std::string::npos);
+  CHECK(read_text(folder / "out/ranges_conditions.csv").find("posevote,0.5,0.05,1,1,1.0,1.0,1.0") !=
+        std::string::npos);
+
+  const CommandResult judged =
+      run_posevote(folder, "experiment calibration --runs " + replica + "=" +
+                               (folder / "out/posevote/results.csv").string() + " --out " +
+                               (folder / "judged").string());
+  INFO(judged.output);
+  REQUIRE(judged.status == 0);
+  CHECK(std::regex_search(judged.output, std::regex("replica_every_54 +2 ")));
+  const nlohmann::json report = read_json(folder / "judged/calibration.json");
+  REQUIRE(report.size() == 2);
+  CHECK(report[1]["set"] == "all");
+  CHECK(report[0]["ece"].get<double>() < 0.5);
+  CHECK(read_text(folder / "judged/calibration.svg").find("as it should be") != std::string::npos);
+  CHECK(run_posevote(folder, "experiment calibration").status == 2);
+  CHECK(run_posevote(folder, "experiment calibration --runs nowhere").status == 2);
+}
+
 TEST_CASE("experiment refuses what it cannot do", "[experiment]") {
   const TemporaryFolder folder;
   CHECK(run_posevote(folder, "experiment cooking").status == 2);

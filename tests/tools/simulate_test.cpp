@@ -11,6 +11,7 @@
 #include "nodes/geometry/nearest_index.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tools/simulate/shapes.hpp"
 #include "tools/simulate/spec.hpp"
 
 using namespace posevote;
@@ -168,6 +169,62 @@ views: 3
   CHECK_THROWS_AS(read_spec(folder.write("b.yaml", "models: [")), graph::ConfigError);
   CHECK_THROWS_AS(read_spec(folder.write("c.yaml", "models: 1\nscenes: {a: 1}")),
                   graph::ConfigError);
+}
+
+TEST_CASE("one scene of each replica of few triangles: models as they are, noise as asked for",
+          "[simulate]") {
+  for (const char* name : {"parts", "household"}) {
+    INFO(name);
+    const TemporaryFolder folder;
+    const std::string spec = std::string(POSEVOTE_SOURCE_DIR "/configs/") + name + "_scenes.yaml";
+    const Spec all = read_spec(spec);
+    simulate(spec, folder / "out", all.scenes.size());
+    const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "out", "test");
+    CHECK(truth.objects.size() == all.models.size());
+    CHECK(truth.instances.size() == all.scenes[0].objects.size());
+    for (const auto& [obj_id, object] : truth.objects) {
+      const ModelSpec& model = all.models[static_cast<std::size_t>(obj_id) - 1];
+      char file[40];
+      std::snprintf(file, sizeof file, "models/obj_%06d.ply", obj_id);
+      const Mesh mesh = formats::read_mesh(folder / "out" / file, 0.001);
+      CHECK(mesh.faces.rows() <= (name == std::string("parts") ? 500 : 1000));
+      const Eigen::RowVector3f sides =
+          mesh.points.colwise().maxCoeff() - mesh.points.colwise().minCoeff();
+      if (model.x > 0)
+        CHECK((sides.cast<double>() - Eigen::RowVector3d(model.x, model.y, model.z)).norm() < 1e-6);
+      else
+        CHECK(double{sides.maxCoeff()} == Approx(model.size));
+      const ShapeSymmetry symmetry = symmetry_of(model.shape);
+      CHECK(object.axes.size() == (symmetry.is_round ? 1 : 0));
+      CHECK(object.symmetries.size() == symmetry.turns.size() + 1);
+    }
+    int counted = 0;
+    for (const auto& [target, count] : truth.targets) counted += count;
+    int visible = 0;
+    for (const layouts::TrueInstance& instance : truth.instances)
+      visible += *instance.visible >= all.least_visible;
+    CHECK(counted == visible);
+    CHECK(counted >= 5);
+  }
+}
+
+TEST_CASE("a scene's noise takes the place of its sensor's", "[simulate]") {
+  const TemporaryFolder folder;
+  const auto table_noise = [&](const std::string& noise) {
+    const std::string spec = folder.write(
+        noise + ".yaml", "models: [{shape: carton, size: 0.1}]\nscenes: [{sensor: plain, noise: " +
+                             noise + ", objects: [1], clutter: 0, elevation: 90, distance: 1}]\n");
+    simulate(spec, folder / noise);
+    const Scan scan = formats::read_scan(folder / noise / "scans/000000.ply", 1);
+    double sum = 0, count = 0;  // the table is 1.05 m away; the object's shadow is all nearer
+    for (Eigen::Index i = 0; i < scan.points.rows(); ++i)
+      if (const double off = double{scan.points(i, 2)} - 1.05; std::abs(off) < 0.012)
+        sum += off * off, ++count;
+    REQUIRE(count > 10000);
+    return std::sqrt(sum / count);
+  };
+  CHECK(table_noise("0.0005") == Approx(0.0005).epsilon(0.1));
+  CHECK(table_noise("0.002") == Approx(0.002).epsilon(0.1));
 }
 
 TEST_CASE("the demo's spec is sound", "[simulate]") {

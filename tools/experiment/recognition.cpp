@@ -120,29 +120,32 @@ std::string recall_and_f1(double recall, double f1) {
   return percent(recall) + " / " + percent(f1);
 }
 
-/// Per object, and the mean over the objects, which is what papers report.
+std::string of_object(const Row& row, int obj_id) {
+  const auto found = row.evaluation.objects.find(obj_id);
+  if (found == row.evaluation.objects.end()) return "-";
+  return recall_and_f1(found->second[0].counts.recall(), best_f1_of(found->second[0]));
+}
+
+/// Over the objects, which is what papers report.
+std::string mean_of_objects(const Row& row) {
+  double recall = 0, f1 = 0;
+  for (const auto& [obj_id, results] : row.evaluation.objects)
+    recall += results[0].counts.recall(), f1 += best_f1_of(results[0]);
+  const auto objects = static_cast<double>(std::max<std::size_t>(1, row.evaluation.objects.size()));
+  return recall_and_f1(recall / objects, f1 / objects);
+}
+
+/// A line for each object, and the mean over them.
 void print_objects(const std::vector<Row>& rows) {
   std::printf("\n%-24s", "recall / best F1");
-  for (const auto& [obj_id, name] : rows[0].evaluation.names)
-    std::printf(" %15.15s", name.empty() ? std::to_string(obj_id).c_str() : name.c_str());
-  std::printf(" %15s\n", "mean");
-  for (const Row& row : rows) {
-    std::printf("%-24s", row.method.c_str());
-    double recall = 0, f1 = 0;
-    for (const auto& [obj_id, name] : rows[0].evaluation.names) {
-      const auto found = row.evaluation.objects.find(obj_id);
-      if (found == row.evaluation.objects.end()) {
-        std::printf(" %15s", "-");
-        continue;
-      }
-      const RuleResult& object = found->second[0];
-      recall += object.counts.recall(), f1 += best_f1_of(object);
-      std::printf(" %15s", recall_and_f1(object.counts.recall(), best_f1_of(object)).c_str());
-    }
-    const auto objects =
-        static_cast<double>(std::max<std::size_t>(1, row.evaluation.objects.size()));
-    std::printf(" %15s\n", recall_and_f1(recall / objects, f1 / objects).c_str());
+  for (const Row& row : rows) std::printf(" %21.21s", row.method.c_str());
+  for (const auto& [obj_id, name] : rows[0].evaluation.names) {
+    std::printf("\n%-24.24s", name.empty() ? std::to_string(obj_id).c_str() : name.c_str());
+    for (const Row& row : rows) std::printf(" %21s", of_object(row, obj_id).c_str());
   }
+  std::printf("\n%-24s", "mean");
+  for (const Row& row : rows) std::printf(" %21s", mean_of_objects(row).c_str());
+  std::printf("\n");
 }
 
 nlohmann::ordered_json to_json(const RuleResult& result) {
