@@ -14,8 +14,7 @@ Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote) {
           Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote]), 0};
 }
 
-std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,
-                                      double min_density) {
+std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density) {
   const std::size_t per_correspondence = votes.votes_per_correspondence;
   std::vector<std::uint32_t> best;
   if (per_correspondence == 0) return best;
@@ -23,8 +22,7 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
     const auto begin = density.begin() + static_cast<std::ptrdiff_t>(first);
     const auto highest =
         std::max_element(begin, begin + static_cast<std::ptrdiff_t>(per_correspondence));
-    if (*highest > 0 && *highest >= min_density)
-      best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
+    if (*highest > 0) best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
   }
   std::stable_sort(best.begin(), best.end(), [&density](std::uint32_t a, std::uint32_t b) {
     return density[a] > density[b];

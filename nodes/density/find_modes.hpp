@@ -19,10 +19,9 @@ Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote);
 /// The pose of one vote, without support.
 Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote);
 
-/// Per correspondence its vote of highest density, the first of equals, where that is above 0 and
-/// at least `min_density`. In descending order of density, equals in order of vote.
-std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density,
-                                      double min_density);
+/// Per correspondence its vote of highest density, the first of equals, where that is above 0. In
+/// descending order of density, equals in order of vote.
+std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density);
 
 /// The highest density among the votes whose centre lies farther than `radius` from `center`; 0
 /// where there are none.

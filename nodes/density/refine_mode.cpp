@@ -38,12 +38,6 @@ Hypothesis weighted_mean(const VoteSet& votes, const std::vector<WeightedVote>& 
   return {(center / sum).cast<float>(), Eigen::Quaternionf(mean).normalized(), 0};
 }
 
-bool stands_still(const Hypothesis& before, const Hypothesis& after, const Bandwidth& bandwidth,
-                  float still) {
-  return (after.center - before.center).norm() <= still * bandwidth.sigma_t &&
-         before.rotation.angularDistance(after.rotation) <= still * bandwidth.sigma_r;
-}
-
 }  // namespace
 
 Hypothesis refine_mode(const VoteSet& votes, const VoteDensity& density,
@@ -55,11 +49,8 @@ Hypothesis refine_mode(const VoteSet& votes, const VoteDensity& density,
     const Hypothesis mean = weighted_mean(votes, neighbours);
     std::vector<WeightedVote> around_mean = living_neighbours(density, alive, mean);
     if (total_weight(around_mean) < total_weight(neighbours)) break;
-    const bool still =
-        stands_still(pose, mean, density.index->bandwidth(), static_cast<float>(terms.still));
     pose = mean;
     neighbours = std::move(around_mean);
-    if (still) break;
   }
   pose.support = start.support;
   return pose;

@@ -18,7 +18,6 @@ namespace posevote::density {
 /// Constants of the method; poses/term_params.cpp says where they come from.
 struct ShiftTerms {
   int most_shifts = 10;
-  double still = 1e-3;  ///< x bandwidths: a shorter shift ends the search
 };
 
 /// The pose shifted to a place where it is the mean of its neighbourhood; the support stays. Only

@@ -74,8 +74,7 @@ Pivot find_pivot(const std::vector<Pair>& pairs) {
 }
 
 /// (lever x turn, shift) that brings the points closer to the planes.
-Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping,
-                    double unobserved) {
+Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping) {
   Matrix6d normal_matrix = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weight = 0;
@@ -91,16 +90,14 @@ Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double d
   for (Eigen::Index k = 0; k < 6; ++k) {
     const double held = solver.eigenvalues()[k];
     const Vector6d direction = solver.eigenvectors().col(k);
-    if (held > unobserved) step -= direction.dot(gradient) / weight / (held + damping) * direction;
+    if (held + damping > 0) step -= direction.dot(gradient) / weight / (held + damping) * direction;
   }
   return step;
 }
 
 /// Shortens a step that leaves the range in which it was linearised.
-Vector6d limit_step(const Vector6d& step, double lever, double distance, double most_turn) {
-  const double turn = step.head<3>().norm() / (most_turn * lever);
-  const double shift = step.tail<3>().norm() / distance;
-  return step / std::max({1.0, turn, shift});
+Vector6d limit_step(const Vector6d& step, double distance) {
+  return step / std::max({1.0, step.head<3>().norm() / distance, step.tail<3>().norm() / distance});
 }
 
 void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& pivot) {
@@ -118,28 +115,20 @@ void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& p
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
                       const IcpParams& params) {
   const IcpTerms& terms = params.terms;
-  const Eigen::Index few_samples =
-      std::min(static_cast<Eigen::Index>(terms.few_points), params.samples);
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
-  bool few = distance > end;
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
-    few = few && iteration < terms.few_until * params.iterations;
-    const std::vector<Pair> pairs =
-        find_pairs(model, scan, T_scene_model.cast<float>(), static_cast<float>(distance),
-                   few ? few_samples : params.samples);
+    const std::vector<Pair> pairs = find_pairs(model, scan, T_scene_model.cast<float>(),
+                                               static_cast<float>(distance), params.samples);
     if (pairs.size() < static_cast<std::size_t>(terms.fewest_pairs)) break;
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) break;
     const double damping = distance > end ? terms.damping : terms.final_damping;
-    const Vector6d step = limit_step(solve_step(pairs, pivot, damping, terms.unobserved),
-                                     pivot.lever, distance, terms.most_turn);
+    const Vector6d step = limit_step(solve_step(pairs, pivot, damping), distance);
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
-    const bool is_done = distance <= end && step.norm() <= (few ? terms.slow : params.still) * end;
-    if (is_done && !few) break;
-    few = few && !is_done;
+    if (distance <= end && step.norm() <= params.still * end) break;
     distance = std::max(end, distance * terms.shrink);
   }
   return T_scene_model;

@@ -78,9 +78,6 @@ graph::Registration<SegmentParams> with_segment_params(graph::Registration<Segme
   node.param("nms", &P::nms, "x diagonal",
              "Instances of one object lie farther apart than this share of its bounding box.",
              graph::in_range(0, 10));
-  node.param("min_density", &P::min_density, "votes",
-             "A mode of lower density (of the votes that are left) is not tried.",
-             graph::at_least(0));
   node.param("min_score", &P::min_score, "", "Detections of lower score are rejected.",
              graph::in_range(0, 1));
   node.param("refine", &P::refine, "", "Whether modes are refined by ICP.");

@@ -14,7 +14,6 @@ struct SegmentParams {
   int max_instances = 1;
   int candidates = 1000;
   double nms = 0.1;
-  double min_density = 3;
   double min_score = 0.3;
   bool refine = true;
   double icp_distance = 5;

@@ -130,8 +130,6 @@ void add_refinement(Node& node) {
        in_range(0, 1000));
   term("coarse_points", &G::coarse_points, "points",
        "Model points of that ICP. Time grows with it.", in_range(10, 1000000));
-  term("coarse_still", &G::coarse_still, "x inlier_distance", "A shorter step ends that ICP.",
-       at_least(0));
   term("full_points", &G::full_points, "points",
        "Model points of the ICP of finalists. Time grows with it.", in_range(10, 1000000));
   term("full_still", &G::full_still, "x inlier_distance", "A shorter step ends that ICP.",
@@ -141,9 +139,6 @@ void add_refinement(Node& node) {
        in_range(10, 10000000));
   term("polish_still", &G::polish_still, "x inlier_distance", "A shorter step ends that ICP.",
        at_least(0));
-  term("kept_support", &G::kept_support, "of support",
-       "ICP is undone where it keeps less: a few chance partners at the silhouette may go.",
-       in_range(0, 1));
 }
 
 void add_twins(Node& node) {
@@ -162,7 +157,6 @@ void add_shift(Node& node) {
       "Of mean shift, by which modes leave the raster of the votes; a neighbourhood query each. 0: "
       "they stay.",
       in_range(0, 1000));
-  term("shift_still", &S::still, "x bandwidths", "A shorter shift ends it.", at_least(0));
 }
 
 void add_surface(Node& node) {
@@ -179,13 +173,6 @@ void add_surface(Node& node) {
 void add_icp(Node& node) {
   using G = geometry::IcpTerms;
   const Register<G> term{node, &Terms::icp};
-  term("icp_few_points", &G::few_points, "points",
-       "Model points that show ICP the way as long as steps are long.", in_range(10, 1000000));
-  term("icp_few_until", &G::few_until, "of iterations",
-       "So long the few show the way, at most. 0: all points from the start, at their cost.",
-       in_range(0, 1));
-  term("icp_slow", &G::slow, "x inlier_distance", "A shorter step calls for the many.",
-       at_least(0));
   term("icp_fewest_pairs", &G::fewest_pairs, "pairs",
        "Fewer points with a partner end ICP: six hold a pose, if they lie well.",
        in_range(6, 1000000));
@@ -193,15 +180,10 @@ void add_icp(Node& node) {
        "Of the search radius, per iteration. Slower finds poses from farther "
        "away, and takes longer.",
        in_range(0.01, 1));
-  term("icp_unobserved", &G::unobserved, "of the weight",
-       "Eigenvalue below which a direction is not moved: on a plane, about a sphere.",
-       in_range(0, 1));
   term("icp_damping", &G::damping, "of the weight",
        "Added to eigenvalues (Levenberg) as long as chance partners are many.", at_least(0));
   term("icp_final_damping", &G::final_damping, "of the weight",
        "Once the search radius is the last.", at_least(0));
-  term("icp_most_turn", &G::most_turn, "rad", "Per iteration: what the step was linearised for.",
-       greater_than(0));
 }
 
 void add_view(Node& node) {

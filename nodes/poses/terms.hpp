@@ -50,8 +50,7 @@ struct ScoreTerms {
 struct RefinementTerms {
   int coarse_steps = 4;
   int coarse_points = 100, full_points = 1000, polish_points = 10000;
-  double coarse_still = 0.1, full_still = 0.02, polish_still = 2e-3;
-  double kept_support = 0.95;
+  double full_still = 0.02, polish_still = 2e-3;
 };
 
 /// When one of two look-alikes leads (twins.hpp).

@@ -25,13 +25,8 @@ double runner_up_support(const Hypotheses& object, const Hypothesis& chosen) {
   return best;
 }
 
-poses::Proposals propose_from(const Hypotheses& object, double min_density) {
-  return {[&object, min_density] {
-            std::vector<Hypothesis> proposed;
-            for (const Hypothesis& hypothesis : object.items)
-              if (hypothesis.support >= min_density) proposed.push_back(hypothesis);
-            return proposed;
-          },
+poses::Proposals propose_from(const Hypotheses& object) {
+  return {[&object] { return object.items; },
           [](const Hypothesis& hypothesis) { return hypothesis; }};
 }
 
@@ -47,7 +42,7 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
     searches.emplace_back(
         poses::Sought{model, scan, poses::instance_params(params, model, scan.resolution),
                       params.terms},
-        propose_from(*object, params.min_density));
+        propose_from(*object));
   }
   Detections found;
   for (const poses::Instance& instance : poses::find_instances(searches, scan)) {

@@ -46,13 +46,12 @@ Detection make_detection(const LiveVotes& object, const poses::Candidate& candid
   return detection;
 }
 
-poses::Proposals propose_from(LiveVotes& object, const poses::ScanState& scan, double min_density,
+poses::Proposals propose_from(LiveVotes& object, const poses::ScanState& scan,
                               const density::ShiftTerms& shift) {
-  return {[&object, &scan, min_density] {
+  return {[&object, &scan] {
             remove_explained(object, scan.feature_explained);
             std::vector<Hypothesis> modes;
-            for (const std::uint32_t vote :
-                 density::best_votes(*object.votes, object.density, min_density)) {
+            for (const std::uint32_t vote : density::best_votes(*object.votes, object.density)) {
               modes.push_back(density::vote_hypothesis(*object.votes, vote));
               modes.back().support = object.density[vote];
             }
@@ -82,8 +81,7 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
                                params.terms,
                                object.votes->votes_per_correspondence,
                                voters_for(*object.votes->model, scene_features)};
-    searches.emplace_back(sought,
-                          propose_from(object, scan, params.min_density, params.terms.shift));
+    searches.emplace_back(sought, propose_from(object, scan, params.terms.shift));
   }
   Detections found;
   for (const poses::Instance& instance : poses::find_instances(searches, scan))

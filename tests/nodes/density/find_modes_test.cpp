@@ -26,7 +26,7 @@ const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 TEST_CASE("each correspondence gives its best vote, the densest first", "[density]") {
   const VoteSet votes = votes_at({0, 1, 2, 3, 4, 5, 6, 7});
-  CHECK(density::best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}, 0) ==
+  CHECK(density::best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}) ==
         std::vector<std::uint32_t>{2, 1, 6});
 }
 
@@ -40,20 +40,19 @@ TEST_CASE("a vote is a hypothesis without support", "[density]") {
 }
 
 TEST_CASE("of equal votes the first is the best", "[density]") {
-  CHECK(density::best_votes(votes_at({0, 1, 2, 3}), {3, 3, 5, 5}, 0) ==
+  CHECK(density::best_votes(votes_at({0, 1, 2, 3}), {3, 3, 5, 5}) ==
         std::vector<std::uint32_t>{2, 0});
 }
 
 TEST_CASE("no votes have no modes", "[density]") {
-  CHECK(density::best_votes(VoteSet{}, {}, 0).empty());
-  CHECK(density::best_votes(votes_at({}), {}, 0).empty());
+  CHECK(density::best_votes(VoteSet{}, {}).empty());
+  CHECK(density::best_votes(votes_at({}), {}).empty());
   CHECK(density::runner_up_density(votes_at({}), {}, kOrigin, 1.0F) == 0);
 }
 
-TEST_CASE("votes below the threshold are no modes", "[density]") {
+TEST_CASE("a correspondence proposes its densest vote, if it has any density", "[density]") {
   const VoteSet votes = votes_at({0, 1, 2, 3});
-  CHECK(density::best_votes(votes, {1, 2, 3, 4}, 3) == std::vector<std::uint32_t>{3});
-  CHECK(density::best_votes(votes, {1, 2, 3, 4}, 2) == std::vector<std::uint32_t>{3, 1});
+  CHECK(density::best_votes(votes, {0, 0, 3, 4}) == std::vector<std::uint32_t>{3});
 }
 
 TEST_CASE("the runner-up is the densest vote elsewhere", "[density]") {

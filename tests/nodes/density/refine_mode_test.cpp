@@ -114,8 +114,7 @@ TEST_CASE("mean shift goes no farther than it may", "[density]") {
   const auto way = [&](const density::ShiftTerms& terms) {
     return (density::refine_mode(votes, density, alive, start, terms).center - start.center).norm();
   };
-  CHECK(way({0, 1e-3}) == 0);
-  CHECK(way({1, 1e-3}) > 0.001F);
-  CHECK(way({10, 100}) == way({1, 1e-3}));
-  CHECK(way({10, 1e-3}) > way({1, 1e-3}));
+  CHECK(way({0}) == 0);
+  CHECK(way({1}) > 0.001F);
+  CHECK(way({10}) > way({1}));
 }

@@ -169,12 +169,11 @@ TEST_CASE("terms are parameters for experts", "[segment]") {
   const double usual = score({});
   REQUIRE(usual > 0.5);
   CHECK(score({{"convincing", "0.1"}}) == usual);
-  CHECK(score({{"convincing", "0.3"}}) < 0.95 * usual);     // of how a pose is judged,
-  CHECK(score({{"least_normal_cosine", "0.99"}}) < usual);  // of the scan's surface,
-  CHECK(score({{"icp_most_turn", "1e-9"}, {"icp_fewest_pairs", "1000000"}}) != usual);  // of ICP
+  CHECK(score({{"convincing", "0.3"}}) < 0.95 * usual);      // of how a pose is judged,
+  CHECK(score({{"least_normal_cosine", "0.99"}}) < usual);   // of the scan's surface,
+  CHECK(score({{"icp_fewest_pairs", "1000000"}}) != usual);  // of ICP
 }
 
 TEST_CASE("segment_hypotheses of nothing is nothing", "[segment]") {
   CHECK(segmented({}, {}).empty());
-  CHECK(segmented({beside(kLeft, 0, 5)}, {{"min_density", "6"}}).empty());
 }

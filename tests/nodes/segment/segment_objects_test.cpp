@@ -132,10 +132,9 @@ TEST_CASE("ICP can be switched off, and then the mode itself is the pose", "[seg
   CHECK(rough[0].density == fine[0].density);
 }
 
-TEST_CASE("thresholds on density and score reject", "[segment]") {
+TEST_CASE("what scores too low is rejected", "[segment]") {
   const SegmentInputs inputs = inputs_of({kLeft}, {1});
   REQUIRE(segment(inputs).size() == 1);
-  CHECK(segment(inputs, {{"min_density", "100000"}}).empty());
   CHECK(segment(inputs, {{"min_score", "1"}}).empty());
 }
 
