@@ -131,6 +131,7 @@ void FrameWork::call(std::size_t i, const std::vector<Value>& inputs, FrameState
   Span& span = state.spans[i];
   span.thread = oneapi::tbb::this_task_arena::current_thread_index();
   span.begin = microseconds();
+  const double begin = clock_.begin();
   attempt(i, state, [&] {
     std::vector<Value> values =
         node.spec->last ? call_node(node, inputs, context_of(state), states_[i].get())
@@ -139,6 +140,7 @@ void FrameWork::call(std::size_t i, const std::vector<Value>& inputs, FrameState
       if (node.outputs[out] >= 0)
         state.values[std::size_t(node.outputs[out])] = std::move(values[out]);
   });
+  span.share = clock_.end(begin);
   span.end = microseconds();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "graph/flow.hpp"
+#include "graph/shared_clock.hpp"
 
 namespace posevote::graph::detail {
 
@@ -59,6 +60,7 @@ class FrameWork {
   const Plan& plan_;
   const bool stop_on_failure_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  SharedClock clock_;
   std::vector<Value> constants_;               ///< per stream
   std::vector<std::shared_ptr<void>> states_;  ///< per node; null where it keeps none
   std::vector<std::vector<std::size_t>>

@@ -9,6 +9,7 @@ struct Span {
   double begin = 0;
   double end = -1;  ///< before `begin`: the node did not run (an earlier one failed)
   int thread = 0;
+  double share = 0;  ///< of the time between, when it is divided among all calls then at work
 
   bool ran() const { return end >= begin; }
   double seconds() const { return ran() ? (end - begin) * 1e-6 : 0; }

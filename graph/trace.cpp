@@ -7,17 +7,10 @@
 
 namespace posevote::graph {
 
-double elapsed(const std::vector<Span>& spans) {
-  double begin = 0;
-  double end = 0;
-  bool any = false;
-  for (const Span& span : spans) {
-    if (!span.ran()) continue;
-    begin = any ? std::min(begin, span.begin) : span.begin;
-    end = std::max(end, span.end);
-    any = true;
-  }
-  return (end - begin) * 1e-6;
+double cost(const std::vector<Span>& spans) {
+  double share = 0;
+  for (const Span& span : spans) share += span.share;
+  return share * 1e-6;
 }
 
 Trace::Trace(const std::vector<std::string>& nodes) {

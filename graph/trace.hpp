@@ -12,8 +12,8 @@
 
 namespace posevote::graph {
 
-/// From the begin of the first to the end of the last of those that ran [s].
-double elapsed(const std::vector<Span>& spans);
+/// What a frame costs: the shares of all its calls [s]. Does not grow with the frames in flight.
+double cost(const std::vector<Span>& spans);
 
 /// Totals of one node over a run. Seconds are wall time of the calls, so over several threads and
 /// frames they add up to more than the run took.

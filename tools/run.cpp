@@ -122,7 +122,7 @@ class Progress {
       spdlog::error("{}: {}: {}", result.context.file.string(), result.failure->node,
                     result.failure->what);
     else if (!command_.quiet)
-      say(result.context, *result.result, graph::elapsed(result.spans));
+      say(result.context, *result.result, graph::cost(result.spans));
   }
 
   void finish() {

@@ -22,8 +22,8 @@ namespace posevote::formats {
 struct FrameReport {
   std::size_t number = 0;
   SceneFile file;
-  double seconds = 0;                    ///< begin of the first stage to end of the last
-  std::map<std::string, double> stages;  ///< seconds per node
+  double seconds = 0;                    ///< of the machine: of the run's time its share (graph::cost)
+  std::map<std::string, double> stages;  ///< of them, per node
   std::string name;                      ///< of the files that writers make for it
 };
 

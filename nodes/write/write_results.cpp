@@ -41,9 +41,9 @@ formats::FrameReport report_of(const SceneFile& file, const graph::FrameContext&
   std::vector<graph::Span> spans;
   for (const graph::Stage& stage : context.stages) {
     spans.push_back(stage.span);
-    if (stage.span.ran()) report.stages[stage.node] = stage.span.seconds();
+    if (stage.span.ran()) report.stages[stage.node] = stage.span.share * 1e-6;
   }
-  report.seconds = graph::elapsed(spans);
+  report.seconds = graph::cost(spans);
   return report;
 }
 

@@ -33,7 +33,7 @@ graph::FrameContext frame(std::size_t number, const std::filesystem::path& out) 
   return {
       number,        "a",
       out,           0,
-      "scans/a.ply", {{"load_scene", {1e6, 3e6, 0}}, {"skipped", {}}, {"match", {2e6, 5e6, 1}}}};
+      "scans/a.ply", {{"load_scene", {1e6, 3e6, 0, 15e5}}, {"skipped", {}}, {"match", {2e6, 5e6, 1, 25e5}}}};
 }
 
 nlohmann::json json(const std::filesystem::path& file) {
@@ -57,8 +57,8 @@ TEST_CASE("write_results writes what is found and what failed, with the times of
   const nlohmann::json& first = results["frames"][0];
   CHECK(first["file"] == "scans/a.ply");
   CHECK(first["scene_id"] == 3);
-  CHECK(first["seconds"] == 4);  // from the begin of load_scene to the end of match
-  CHECK(first["stages"] == nlohmann::json({{"load_scene", 2}, {"match", 3}}));
+  CHECK(first["seconds"] == 4);  // the shares of both
+  CHECK(first["stages"] == nlohmann::json({{"load_scene", 1.5}, {"match", 2.5}}));
   CHECK(first["detections"].size() == 1);
   CHECK(results["frames"][1]["frame"] == 2);
   REQUIRE(results["nodes"].size() == 3);
