@@ -6,13 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "nodes/data/clues.hpp"
+
 namespace posevote {
 
 /// One found instance of one object.
 struct Detection {
   int obj_id = 0;
   std::string model;
-  double score = 0;              ///< in [0, 1], comparable between objects and scenes
+  double confidence = 0;         ///< in [0, 1]: the probability that it is right
+  Clues clues{};                 ///< what the confidence was made from
+  double score = 0;              ///< in [0, 1]: how well it fits
   double density = 0;            ///< of the mode, raw (before anything was subtracted)
   double runner_up_density = 0;  ///< highest raw density of the same object farther than 20 % of
                                  ///< the bounding-box diagonal from the mode

@@ -36,17 +36,21 @@ std::string line(const ordered_json& json) {
 }
 
 ordered_json to_json(const Detection& found) {
+  ordered_json clues;
+  for (std::size_t i = 0; i < kClueCount; ++i) clues[kClueNames[i]] = found.clues[i];
   std::vector<double> matrix;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
       matrix.push_back(found.T_scene_model.matrix()(row, column));
   return {{"obj_id", found.obj_id},
           {"model", found.model},
+          {"confidence", found.confidence},
           {"score", found.score},
           {"density", found.density},
           {"runner_up_density", found.runner_up_density},
           {"inlier_fraction", found.inlier_fraction},
           {"rmse_m", found.rmse},
+          {"clues", clues},
           {"T_scene_model", matrix}};
 }
 
@@ -74,7 +78,7 @@ std::string csv_rows(const ordered_json& json) {
   for (const ordered_json& item : json.at("detections")) {
     Detection& found = detections.items.emplace_back();
     found.obj_id = item.at("obj_id").get<int>();
-    found.score = item.at("score").get<double>();
+    found.confidence = item.at("confidence").get<double>();
     for (int i = 0; i < 16; ++i)
       found.T_scene_model.matrix()(i / 4, i % 4) = item.at("T_scene_model").at(i).get<double>();
   }
@@ -211,8 +215,9 @@ std::string csv_rows(const FrameReport& frame, const Detections& detections) {
     std::snprintf(
         text, sizeof text,
         "%d,%d,%d,%.6f,%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g,%.6f %.6f %.6f,%.3f\n",
-        frame.file.scene_id, frame.file.im_id, found.obj_id, found.score, r(0, 0), r(0, 1), r(0, 2),
-        r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2), t.x(), t.y(), t.z(), frame.seconds);
+        frame.file.scene_id, frame.file.im_id, found.obj_id, found.confidence, r(0, 0), r(0, 1),
+        r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2), t.x(), t.y(), t.z(),
+        frame.seconds);
     rows += text;
   }
   return rows;

@@ -8,11 +8,14 @@
 //   rank     its quality, a little lower for less support than others: who goes first among the
 //            poses of one object
 //   score    in [0, 1]: quality x consensus, the share of the features on it that had voted for it;
-//            what a detection reports and min_score asks for
+//            what min_score asks for
+//   confidence  in [0, 1]: how probable it is that it is right, from all clues (confidence.hpp);
+//            what min_confidence asks for, and who goes first among the poses of all objects
 #pragma once
 
 #include <vector>
 
+#include "nodes/data/clues.hpp"
 #include "nodes/data/hypotheses.hpp"
 #include "nodes/poses/measure_fit.hpp"
 
@@ -24,7 +27,9 @@ struct Candidate {
   Fit fit;
   double quality = 0;
   double rank = 0;
-  double consensus = 1;           ///< in [0, 1], of votes, for the best of a search
+  double consensus = 1;  ///< in [0, 1], of votes, for the best of a search
+  Clues clues{};         ///< of refined poses, as is the next
+  double confidence = 0;
   bool is_refined = false;        ///< by all steps of ICP
   std::size_t near_symmetry = 0;  ///< for twins: which of the model's made them
   double score() const { return quality * consensus; }

@@ -34,7 +34,7 @@ ObjectSearch* best_of(const Searches& searches) {
   for (;;) {
     ObjectSearch* best = nullptr;
     for (ObjectSearch* search : searches)
-      if (search->best() && (!best || search->best()->quality > best->best()->quality))
+      if (search->best() && (!best || search->best()->confidence > best->best()->confidence))
         best = search;
     if (!best || best->is_current()) return best;
     best->choose();

@@ -104,7 +104,9 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
     if (points[i].verdict == Verdict::kSupported)
       judge_ends(model, outline, row, T, p, sensed, points[i]);
   });
-  return count(points);
+  Fit fit = count(points);
+  fit.stands_for = static_cast<double>(stride);
+  return fit;
 }
 
 Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
@@ -141,14 +143,18 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
 // ratios, so that the quality does not depend on the object's size or the sampling.
 double fit_quality(const Fit& fit, const FitTerms& terms) {
   if (fit.supported == 0) return 0;
+  const FitShares shares = shares_of(fit, terms);
+  const double clues = fit.relief + terms.outline_weight * shares.outline;
+  const double evidence = 1 - std::exp(-fit.inlier_fraction * clues / terms.convincing);
+  return shares.agreement * evidence * shares.continuity;
+}
+
+FitShares shares_of(const Fit& fit, const FitTerms& terms) {
   const auto supported = static_cast<double>(fit.supported);
-  const double agreement = supported / (supported + against(fit, terms));
   const double looks = geometry::kOutlineDirections * supported;
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
-  const double clues = fit.relief + terms.outline_weight * (ends - overhang) / looks;
-  const double evidence = 1 - std::exp(-fit.inlier_fraction * clues / terms.convincing);
-  const double continuity = 1 - overhang / (ends + terms.few_ends * looks);
-  return agreement * evidence * continuity;
+  return {supported / (supported + against(fit, terms)), (ends - overhang) / looks,
+          1 - overhang / (ends + terms.few_ends * looks)};
 }
 
 }  // namespace posevote::poses

@@ -35,6 +35,7 @@ struct Fit {
   double inlier_fraction = 0;  ///< supported / facing
   double rmse = 0;             ///< point to plane, over the supported [m]
   double relief = 0;           ///< of the supported: 0 if all normals are parallel, 2/3 at most
+  double stands_for = 1;       ///< so many of the model's points stand for each that was judged
 };
 
 /// `tolerance`: of support; a surface is clearly behind or before at clear_distance times that [m].
@@ -55,6 +56,17 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
                       const geometry::ScanSurface& scan, const geometry::RangeView& view,
                       const Eigen::Isometry3d& T_scene_model, float tolerance,
                       const FitTerms& terms = {});
+
+/// What a fit comes to, each in [0, 1] but where the outline speaks against itself.
+struct FitShares {
+  double agreement = 0;   ///< of the points that take a side, those for the pose
+  double outline = 0;     ///< of all looks beside the supported, those that met the model's outline
+                          ///< where the scan's is, less those where the scan goes on
+  double continuity = 1;  ///< of the outline, where the scan ends, too
+};
+
+/// Of a fit that has supported points.
+FitShares shares_of(const Fit& fit, const FitTerms& terms = {});
 
 /// In [0, 1]: how much of what should be visible is there, times how much there is to go by; the
 /// .cpp gives the reasons.

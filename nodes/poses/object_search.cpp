@@ -55,12 +55,12 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
   const Candidate* first = nullptr;
   for (auto candidate = begin; candidate != end; ++candidate) {
     if (!taken_.is_clear(sought_.model, candidate->T_scene_model)) continue;
-    if (candidate->quality < sought_.params.min_score) {
+    if (!is_convincing(sought_, *candidate)) {
       if (!first) first = &*candidate;
       continue;
     }
     Candidate best = best_alike(sought_, *candidate, taken_);
-    if (best.quality >= sought_.params.min_score) return best;
+    if (is_convincing(sought_, best)) return best;
   }
   if (!first) return std::nullopt;
   return best_alike(sought_, *first, taken_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/refinement.hpp"
 
+#include "nodes/poses/confidence.hpp"
 #include "nodes/poses/score.hpp"
 
 namespace posevote::poses {
@@ -29,6 +30,7 @@ void refine(const Sought& sought, Candidate& candidate) {
              terms.full_points, terms.full_still, sought.terms.icp});
   candidate.is_refined = true;
   judge(sought, candidate, sought.terms.schedule.close_points);
+  believe(sought, candidate);
 }
 
 void polish(const Sought& sought, Candidate& candidate) {
@@ -37,6 +39,7 @@ void polish(const Sought& sought, Candidate& candidate) {
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
            terms.polish_points, terms.polish_still, sought.terms.icp});
   judge(sought, candidate, 0);
+  believe(sought, candidate);
 }
 
 }  // namespace posevote::poses

@@ -24,9 +24,9 @@ void judge(const Sought& sought, Candidate& candidate, Eigen::Index points) {
   grade(sought, candidate);
 }
 
-bool is_convincing(const Sought& sought, Candidate& candidate) {
-  if (sought.votes_per_correspondence > 0) candidate.consensus = consensus(sought, candidate);
-  return candidate.score() > 0 && candidate.score() >= sought.params.min_score;
+bool is_convincing(const Sought& sought, const Candidate& candidate) {
+  return candidate.score() > 0 && candidate.score() >= sought.params.min_score &&
+         candidate.confidence >= sought.params.min_confidence;
 }
 
 double exactness(const Sought& sought, const Candidate& candidate) {
@@ -41,14 +41,16 @@ double exactness(const Sought& sought, const Candidate& candidate) {
 
 /// The fit tells how much of the surface is there, the consensus how many of the features on it had
 /// voted for the pose before anybody looked.
-double consensus(const Sought& sought, const Candidate& candidate) {
-  const ScoreTerms& terms = sought.terms.score;
+double votes_per_feature(const Sought& sought, const Candidate& candidate) {
   const std::size_t explained = sought.scan.count_explained(sought.model, candidate.T_scene_model,
                                                             sought.params.tolerance, sought.voters);
   const double votes = static_cast<double>(std::max<std::size_t>(1, explained)) *
-                       sought.votes_per_correspondence / terms.usual_votes;
-  const double share = candidate.proposed.support / votes;
-  return std::pow(std::min(1.0, share), terms.trust_in_consensus);
+                       sought.votes_per_correspondence / sought.terms.score.usual_votes;
+  return candidate.proposed.support / votes;
+}
+
+double consensus(double votes_per_feature, const ScoreTerms& terms) {
+  return std::pow(std::min(1.0, votes_per_feature), terms.trust_in_consensus);
 }
 
 }  // namespace posevote::poses

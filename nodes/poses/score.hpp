@@ -17,13 +17,16 @@ void grade(const Sought& sought, Candidate& candidate);
 /// Measures the fit by some model points, and grades.
 void judge(const Sought& sought, Candidate& candidate, Eigen::Index points);
 
-/// Whether it reaches min_score, by its quality and its consensus, which this sets.
-bool is_convincing(const Sought& sought, Candidate& candidate);
+/// Whether a refined pose reaches the thresholds of score and confidence.
+bool is_convincing(const Sought& sought, const Candidate& candidate);
 
 /// In [least_exactness, 1], by the instances of all objects that were found before.
 double exactness(const Sought& sought, const Candidate& candidate);
 
-/// In [0, 1], from the support per feature of the scan that the pose explains.
-double consensus(const Sought& sought, const Candidate& candidate);
+/// The support per feature of the scan that the pose explains, as if each had cast usual_votes.
+double votes_per_feature(const Sought& sought, const Candidate& candidate);
+
+/// In [0, 1], from votes per feature.
+double consensus(double votes_per_feature, const ScoreTerms& terms);
 
 }  // namespace posevote::poses

@@ -26,6 +26,7 @@ InstanceParams instance_params(const SegmentParams& params, const Model& model,
   out.max_instances = params.max_instances;
   out.candidates = static_cast<std::size_t>(params.candidates);
   out.min_score = params.min_score;
+  out.min_confidence = params.min_confidence;
   out.nms_radius = static_cast<float>(params.nms) * model.diagonal;
   out.refine = params.refine;
   out.icp_iterations = params.icp_iterations;
@@ -41,6 +42,8 @@ Detection make_detection(const Model& model, const Candidate& candidate) {
   detection.obj_id = model.obj_id;
   detection.model = model.name;
   detection.score = candidate.score();
+  detection.confidence = candidate.confidence;
+  detection.clues = candidate.clues;
   detection.inlier_fraction = candidate.fit.inlier_fraction;
   detection.rmse = candidate.fit.rmse;
   detection.T_scene_model = candidate.T_scene_model;
@@ -78,7 +81,11 @@ graph::Registration<SegmentParams> with_segment_params(graph::Registration<Segme
   node.param("nms", &P::nms, "x diagonal",
              "Instances of one object lie farther apart than this share of its bounding box.",
              graph::in_range(0, 10));
-  node.param("min_score", &P::min_score, "", "Detections of lower score are rejected.",
+  node.param("min_confidence", &P::min_confidence, "",
+             "Detections that are right with less probability are rejected.",
+             graph::in_range(0, 1));
+  node.param("min_score", &P::min_score, "",
+             "Poses of lower score are not worth a look, whatever their confidence.",
              graph::in_range(0, 1));
   node.param("refine", &P::refine, "", "Whether modes are refined by ICP.");
   node.param("icp_distance", &P::icp_distance, "x resolution",

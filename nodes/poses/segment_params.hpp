@@ -14,7 +14,8 @@ struct SegmentParams {
   int max_instances = 1;
   int candidates = 1000;
   double nms = 0.1;
-  double min_score = 0.3;
+  double min_confidence = 0.5;
+  double min_score = 0.1;
   bool refine = true;
   double icp_distance = 5;
   int icp_iterations = 40;

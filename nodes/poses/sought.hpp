@@ -13,7 +13,7 @@ namespace posevote::poses {
 struct InstanceParams {
   int max_instances = 1;
   std::size_t candidates = 1;  ///< poses that are judged
-  double min_score = 0;
+  double min_score = 0, min_confidence = 0;
   float nms_radius = 0;          ///< between the centres of instances [m]
   bool refine = true;            ///< by ICP
   int icp_iterations = 40;       ///< at most

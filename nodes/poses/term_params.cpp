@@ -122,6 +122,20 @@ void add_score(Node& node) {
        greater_than(0));
 }
 
+void add_confidence(Node& node) {
+  for (std::size_t i = 0; i < kClueCount; ++i)
+    node.expert_param(
+        std::string("confidence_") + kClueNames[i],
+        [i](SegmentParams& params) -> double& { return params.terms.confidence.weights[i]; },
+        "log odds", "Weight of that clue in the confidence. Found by posevote calibrate.",
+        in_range(-1e6, 1e6));
+  node.expert_param(
+      "confidence_offset",
+      [](SegmentParams& params) -> double& { return params.terms.confidence.offset; }, "log odds",
+      "Confidence of a pose whose clues are all 0. Found by posevote calibrate.",
+      in_range(-1e6, 1e6));
+}
+
 void add_refinement(Node& node) {
   using G = RefinementTerms;
   const Register<G> term{node, &Terms::refinement};
@@ -217,6 +231,7 @@ void add_terms(graph::Registration<SegmentParams>& node) {
   add_pool(node);
   add_fit(node);
   add_score(node);
+  add_confidence(node);
   add_refinement(node);
   add_twins(node);
   add_shift(node);

@@ -5,6 +5,7 @@
 // ablation` measures what each brings.
 #pragma once
 
+#include "nodes/data/clues.hpp"
 #include "nodes/density/refine_mode.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/range_view.hpp"
@@ -46,6 +47,13 @@ struct ScoreTerms {
   double usual_votes = 60;
 };
 
+/// How probable it makes the pose (confidence.hpp): log odds for each clue, as `posevote calibrate`
+/// found them on the sets of calibrate.yaml.
+struct ConfidenceTerms {
+  double offset = -26.0;
+  Clues weights{1.0, 0.43, 1.49, 18.0, 0.6, -1.9, 2.67, 1.55};
+};
+
 /// How far it is refined (refinement.hpp).
 struct RefinementTerms {
   int coarse_steps = 4;
@@ -63,6 +71,7 @@ struct Terms {
   PoolTerms pool;
   FitTerms fit;
   ScoreTerms score;
+  ConfidenceTerms confidence;
   RefinementTerms refinement;
   TwinTerms twins;
   density::ShiftTerms shift;

@@ -54,7 +54,7 @@ void write_picture(const Cloud& scan, const Detections& detections, const ModelL
     // A good fit lies on the scan: without a lead, scan and model would mix at random.
     painter.draw(model->cloud, T_scene_model, colour, 2 * library.octaves.front().resolution);
     char score[32];
-    std::snprintf(score, sizeof score, " %.2f", found.score);
+    std::snprintf(score, sizeof score, " %.2f", found.confidence);
     painter.label(T_scene_model * model->center, found.model + score, colour);
   }
   std::filesystem::create_directories(context.out / "pictures");

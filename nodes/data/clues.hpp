@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What speaks for and against a detection, as its confidence is made from it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace posevote {
+
+/// Numbers of clues that do not depend on units, the object's size or the sensor, each so that the
+/// log odds of a true pose are about linear in it (poses/confidence.hpp).
+enum Clue : std::size_t {
+  kAgreement,   ///< log odds of the points that take a side being for the pose
+  kRelief,      ///< log of how differently the supported normals point
+  kOutline,     ///< log of how much of the model's outline the scan's meets
+  kContinuity,  ///< in [0, 1]: share of the outline beyond which the scan does not go on
+  kVotes,       ///< log of votes per feature on the pose
+  kResidual,    ///< rmse, as a share of the tolerance
+  kExactness,   ///< in [0, 1]: 1 if the residual is what other instances of the scan have
+  kSupport,     ///< log of how many model points are supported
+  kClueCount
+};
+
+constexpr std::array<const char*, kClueCount> kClueNames{
+    "agreement", "relief", "outline", "continuity", "votes", "residual", "exactness", "support"};
+
+using Clues = std::array<double, kClueCount>;
+
+}  // namespace posevote

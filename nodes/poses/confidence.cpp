@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/confidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/poses/score.hpp"
+
+namespace posevote::poses {
+namespace {
+
+/// Of true poses, so that it says nothing.
+constexpr double kUsualVotesPerFeature = 0.3;
+
+/// Beyond these bounds more is neither better nor worse.
+double bounded_log(double value, double low, double high) {
+  return std::log(std::clamp(value, low, high));
+}
+
+}  // namespace
+
+Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per_feature,
+               double tolerance_m, const FitTerms& terms) {
+  const FitShares shares = shares_of(fit, terms);
+  Clues clues{};
+  clues[kAgreement] = bounded_log(shares.agreement / (1.02 - shares.agreement), 0.1, 50);
+  clues[kRelief] = bounded_log(fit.relief, 0.01, 0.7);
+  clues[kOutline] = bounded_log(3 * shares.outline + 0.02, 0.02, 1.5);
+  clues[kContinuity] = shares.continuity;
+  clues[kVotes] = bounded_log(votes_per_feature.value_or(kUsualVotesPerFeature), 0.002, 3);
+  clues[kResidual] = tolerance_m > 0 ? fit.rmse / tolerance_m : 0;
+  clues[kExactness] = exactness;
+  clues[kSupport] = bounded_log(static_cast<double>(fit.supported) * fit.stands_for, 30, 20000);
+  return clues;
+}
+
+double confidence_of(const Clues& clues, const ConfidenceTerms& terms) {
+  double log_odds = terms.offset;
+  for (std::size_t i = 0; i < kClueCount; ++i) log_odds += terms.weights[i] * clues[i];
+  return 1 / (1 + std::exp(-log_odds));
+}
+
+void believe(const Sought& sought, Candidate& candidate) {
+  candidate.confidence = 0;
+  if (!(candidate.quality > 0)) return;
+  std::optional<double> votes;
+  if (sought.votes_per_correspondence > 0) {
+    votes = votes_per_feature(sought, candidate);
+    candidate.consensus = consensus(*votes, sought.terms.score);
+  }
+  candidate.clues = clues_of(candidate.fit, exactness(sought, candidate), votes,
+                             static_cast<double>(sought.params.tolerance), sought.terms.fit);
+  candidate.confidence = confidence_of(candidate.clues, sought.terms.confidence);
+}
+
+}  // namespace posevote::poses

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How probable it is that a refined pose is right. A score says how well a pose fits; how much that
+// is worth differs between sensors and objects: a small support may be chance, a cap of a body sunk
+// into a table agrees without a contradiction, a carton's face says little of its length. The
+// confidence weighs what is known by a logistic regression (Platt 1999; Cox 1958), whose weights
+// `posevote calibrate` finds on simulated scans of other objects than those that are judged.
+#pragma once
+
+#include <optional>
+
+#include "nodes/data/clues.hpp"
+#include "nodes/poses/candidate.hpp"
+#include "nodes/poses/sought.hpp"
+
+namespace posevote::poses {
+
+/// Of a pose of quality > 0. `votes_per_feature`: none where support is not a count of votes (the
+/// rivals'), which is taken as what true poses usually have.
+Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per_feature,
+               double tolerance_m, const FitTerms& terms = {});
+
+/// In [0, 1]: 1 / (1 + exp(-(offset + weights . clues))).
+double confidence_of(const Clues& clues, const ConfidenceTerms& terms);
+
+/// Sets consensus, clues and confidence of a candidate.
+void believe(const Sought& sought, Candidate& candidate);
+
+}  // namespace posevote::poses
