@@ -15,6 +15,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
 #include "nodes/formats/read_scan.hpp"
+#include "nodes/formats/units.hpp"
 #include "nodes/geometry/extent.hpp"
 
 namespace posevote::load {
@@ -59,7 +60,7 @@ const auto registered =
         .input("model_files")
         .output("model_meshes")
         .param("unit", &Params::unit, "", "Unit of length in model files.",
-               graph::one_of({"mm", "m"}));
+               graph::one_of(formats::length_units()));
 
 }  // namespace
 }  // namespace posevote::load
