@@ -67,6 +67,7 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
   auto library = library::load_library(command.library, library_key(configuration), why_not);
   if (!library)
     throw std::invalid_argument(command.library + ": " + why_not + "; train it with this config");
+  tell_odd_sizes(configuration, *library, {});
   return std::make_shared<const ModelLibrary>(std::move(*library));
 }
 

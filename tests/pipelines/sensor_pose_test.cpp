@@ -99,9 +99,9 @@ TEST_CASE("a moved scan has the moved poses, if its sensor's pose is said", "[ru
     CHECK(csv("option_file") == csv("option"));
     const std::string again = (w.folder / "option/effective.yaml").string();
     REQUIRE(run_posevote(w.folder, "run " + again + " --models " + w.models.string() + " " +
-                                       scene(ply) + " --out " + (w.folder / "again").string())
+                                       scene(ply) + " --out " + (w.folder / "pose_again").string())
                 .status == 0);
-    CHECK(csv("again") == csv("option"));
+    CHECK(csv("pose_again") == csv("option"));
   }
   SECTION("by a file beside it, which the option goes before") {
     w.folder.write("robot/scan.pose", numbers);
