@@ -16,8 +16,8 @@ struct Unit {
 /// The more common first: of two mistakes that explain a size alike the earlier is believed.
 constexpr Unit kUnits[] = {{"mm", 0.001}, {"m", 1}, {"cm", 0.01}, {"in", 0.0254}};
 
-constexpr double kSmallestModel = 0.0002, kLargestModel = 20;  ///< beyond, no scan shows them [m]
-constexpr double kUsualModel[] = {0.01, 2};                    ///< what people look for [m]
+constexpr double kSmallestModel = 0.001, kLargestModel = 20;  ///< beyond, the unit is in doubt [m]
+constexpr double kUsualModel[] = {0.01, 2};                   ///< what people look for [m]
 
 }  // namespace
 

@@ -27,7 +27,7 @@ std::optional<UnitMistake> unit_mistake(double size, double low, double high,
                                         const std::string& read_as = "");
 
 /// What is evidently wrong with the diagonal of a model [m] that was read in `unit`, and which unit
-/// would fit; "" for sizes that objects have: from 0.2 mm to 20 m.
+/// would fit; "" for sizes that objects have: from 1 mm to 20 m.
 std::string odd_model_size(double diagonal, const std::string& unit);
 
 /// For messages: "0.1 m", four digits.

@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <fstream>
 
+#include "nodes/data/features.hpp"
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "tests/pipelines/run_world.hpp"
+#include "tests/support/run_node.hpp"
 
 using namespace posevote;
 using namespace posevote::test;
@@ -31,6 +33,17 @@ Mesh moved_scan() {
   const Eigen::Isometry3f T = T_robot_sensor().cast<float>();
   scan.points = (scan.points * T.linear().transpose()).rowwise() + T.translation().transpose();
   return scan;
+}
+
+/// The scan with normals, as some scanners write them.
+Mesh oriented_scan() {
+  Scan scan;
+  static_cast<Mesh&>(scan) = formats::read_mesh(world().scans / "000000.ply", 1);
+  const Cloud cloud = run_node<Cloud>("estimate_normals", {}, scan, Scale{0.0015F});
+  Mesh out;
+  out.points = cloud.points;
+  out.normals = cloud.normals;
+  return out;
 }
 
 void write_pcd(const fs::path& file, const Mesh& scan) {
@@ -115,6 +128,51 @@ TEST_CASE("a moved scan has the moved poses, if its sensor's pose is said", "[ru
   SECTION("by a PCD's viewpoint") {
     REQUIRE(w.run("pcd", scene(pcd)).status == 0);
     check_same(frames("pcd"));
+  }
+}
+
+TEST_CASE("where nobody says where the sensor stood, the scan is asked", "[run]") {
+  const World& w = world();
+  const fs::path folder = w.folder / "unsaid";
+  fs::create_directories(folder);
+  const auto warning = [&](const std::string& out, const fs::path& file, const std::string& more) {
+    const CommandResult run = w.run(out, scene(file) + more);
+    INFO(run.output);
+    CHECK(run.status == 0);
+    const std::size_t at = run.output.find("warning: " + file.string() + ": load_scene: ");
+    const std::size_t end = run.output.find('\n', at);
+    CHECK(run.output.find("warning", end) == std::string::npos);  // one a scan
+    return at == std::string::npos ? "" : run.output.substr(at, end - at);
+  };
+  const auto has = [](const std::string& what) { return Catch::Contains(what); };
+
+  SECTION("a scan around the origin cannot tell, and says so") {
+    Mesh scan = formats::read_mesh(w.scans / "000000.ply", 1);
+    scan.points.rowwise() -= scan.points.colwise().mean().eval();
+    formats::write_ply(folder / "around.ply", scan);
+    CHECK_THAT(warning("around", folder / "around.ply", ""),
+               has("lies around its frame's origin") && has("--sensor-pose"));
+    CHECK(warning("around_said", folder / "around.ply", " --sensor-pose '0 0 0'") == "");
+  }
+  SECTION("normals tell roughly") {
+    Mesh scan = oriented_scan();
+    formats::write_ply(folder / "normals.ply", scan);
+    CHECK(warning("normals", folder / "normals.ply", "") == "");
+    scan.points.rowwise() += Eigen::RowVector3f(0.9F, 0.2F, -1.8F);  // the origin lies behind it
+    formats::write_ply(folder / "behind.ply", scan);
+    CHECK_THAT(warning("behind", folder / "behind.ply", ""),
+               has("of the file's normals point to the origin: the sensor is taken to have stood"));
+    CHECK(frames("behind")[0]["detections"].size() == frames("normals")[0]["detections"].size());
+    CHECK_THAT(warning("wrong", folder / "behind.ply", " --sensor-pose '0 0 9'"),
+               has("point to the sensor at"));
+    CHECK(warning("right", folder / "behind.ply", " --sensor-pose '0.9 0.2 -1.8'") == "");
+  }
+  SECTION("inverted normals are turned") {
+    Mesh scan = oriented_scan();
+    scan.normals *= -1;
+    formats::write_ply(folder / "inverted.ply", scan);
+    CHECK_THAT(warning("inverted", folder / "inverted.ply", ""), has("taken as inverted"));
+    CHECK(frames("inverted")[0]["detections"].size() == 2);
   }
 }
 

@@ -33,10 +33,10 @@ TEST_CASE("the unit that would fit", "[formats]") {
 }
 
 TEST_CASE("models of sizes that no object has", "[formats]") {
-  for (const double diagonal : {0.0003, 0.1, 15.0})
+  for (const double diagonal : {0.002, 0.1, 15.0})
     CHECK(formats::odd_model_size(diagonal, "m") == "");
   CHECK_THAT(formats::odd_model_size(100, "m"),
              test::has("diagonal is 100 m, read as m: is it in mm? Say --model-unit mm"));
-  CHECK_THAT(formats::odd_model_size(0.00005, "mm"), test::has("is it in m? Say --model-unit m "));
+  CHECK_THAT(formats::odd_model_size(0.00025, "mm"), test::has("is it in m? Say --model-unit m "));
   CHECK_THAT(formats::odd_model_size(1e6, "m"), test::has("check --model-unit"));
 }
