@@ -51,6 +51,7 @@ struct UntypedResult {
   Value result;
   std::optional<Failure> failure;
   std::vector<Span> spans;
+  std::vector<Warning> warnings;
 };
 
 /// See run() in graph/runner.hpp. Throws std::invalid_argument for a constant that is missing or of

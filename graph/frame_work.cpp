@@ -3,6 +3,7 @@
 
 #include <oneapi/tbb/task_arena.h>
 
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -53,6 +54,7 @@ FrameState::FrameState(std::size_t order, UntypedFrame entering, const Plan& pla
       readers(plan.streams.size()),
       arrivals(plan.nodes.size() + 1),
       failures(plan.nodes.size()),
+      warnings(plan.nodes.size()),
       spans(plan.nodes.size()) {
   for (std::size_t i = 0; i < plan.streams.size(); ++i)
     readers[i] = static_cast<int>(plan.streams[i].consumers.size());
@@ -133,9 +135,7 @@ void FrameWork::call(std::size_t i, const std::vector<Value>& inputs, FrameState
   span.begin = microseconds();
   const double begin = clock_.begin();
   attempt(i, state, [&] {
-    std::vector<Value> values =
-        node.spec->last ? call_node(node, inputs, context_of(state), states_[i].get())
-                        : call_node(node, inputs, state.frame.context, states_[i].get());
+    std::vector<Value> values = call_node(node, inputs, context_of(i, state), states_[i].get());
     for (std::size_t out = 0; out < values.size(); ++out)
       if (node.outputs[out] >= 0)
         state.values[std::size_t(node.outputs[out])] = std::move(values[out]);
@@ -148,16 +148,20 @@ void FrameWork::tell(std::size_t i, const Failure& failure, FrameState& state) {
   const PlannedNode& node = plan_.nodes[i];
   if (!node.spec->on_failure) return;
   attempt(i, state, [&] {
-    node.spec->on_failure(states_[i].get(), failure,
-                          node.spec->last ? context_of(state) : state.frame.context,
-                          node.params.get());
+    node.spec->on_failure(states_[i].get(), failure, context_of(i, state), node.params.get());
   });
 }
 
-FrameContext FrameWork::context_of(const FrameState& state) const {
+FrameContext FrameWork::context_of(std::size_t i, FrameState& state) const {
   FrameContext context = state.frame.context;
-  for (std::size_t i = 0; i < plan_.nodes.size(); ++i)
-    if (!plan_.nodes[i].spec->last) context.stages.push_back({plan_.nodes[i].name, state.spans[i]});
+  context.on_warning = [&state, i](const std::string& what) {
+    const std::lock_guard lock(state.warning);
+    state.warnings[i].push_back(what);
+  };
+  if (!plan_.nodes[i].spec->last) return context;
+  for (std::size_t other = 0; other < plan_.nodes.size(); ++other)
+    if (!plan_.nodes[other].spec->last)
+      context.stages.push_back({plan_.nodes[other].name, state.spans[other]});
   return context;
 }
 
@@ -169,6 +173,11 @@ detail::UntypedResult FrameWork::result(FrameState& state) const {
   result.spans = std::move(state.spans);
   for (const auto& failure : state.failures)
     if (failure && !result.failure) result.failure = failure;
+  for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
+    std::set<std::string> distinct(state.warnings[i].begin(), state.warnings[i].end());
+    for (const std::string& what : distinct)  // sorted: threads tell in any order
+      result.warnings.push_back({plan_.nodes[i].name, what});
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct FrameState {
   std::vector<std::atomic<int>> readers;
   std::vector<std::atomic<int>> arrivals;  ///< per node, the last one for the sink
   std::vector<std::optional<Failure>> failures;
+  std::mutex warning;  ///< held by whoever adds one: a lifted node runs on several threads
+  std::vector<std::vector<std::string>> warnings;  ///< per node
   std::vector<Span> spans;
 };
 
@@ -53,8 +56,8 @@ class FrameWork {
   void tell(std::size_t i, const Failure& failure, FrameState& state);
   template <class Work>
   void attempt(std::size_t i, FrameState& state, const Work& work);
-  /// With the stages, for a node that runs last.
-  FrameContext context_of(const FrameState& state) const;
+  /// What node i sees of the frame: with the stages, if it runs last.
+  FrameContext context_of(std::size_t i, FrameState& state) const;
   double microseconds() const;
 
   const Plan& plan_;

@@ -56,7 +56,8 @@ struct FrameResult {
   FrameContext context;
   std::shared_ptr<const Result> result;  ///< null where the frame failed
   std::optional<Failure> failure;
-  std::vector<Span> spans;  ///< per node of the plan, in its order
+  std::vector<Span> spans;        ///< per node of the plan, in its order
+  std::vector<Warning> warnings;  ///< in the plan's order, of a node each once
 };
 
 /// Gives the frames one by one, then nothing. Called by one thread at a time.
@@ -84,7 +85,7 @@ namespace detail {
 template <class Result>
 FrameResult<Result> typed(UntypedResult&& raw) {
   return {std::move(raw.context), raw.failure ? nullptr : StreamTraits<Result>::share(raw.result),
-          std::move(raw.failure), std::move(raw.spans)};
+          std::move(raw.failure), std::move(raw.spans), std::move(raw.warnings)};
 }
 
 template <class... In>

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "graph/schema.hpp"
+#include "nodes/formats/units.hpp"
 
 namespace posevote {
 namespace {
@@ -63,6 +64,14 @@ void add_set(CLI::App& app, std::vector<std::string>& set) {
   app.add_option("--set", set, "Override one parameter: node.param=value (repeatable)")
       ->type_name("NODE.PARAM=VALUE")
       ->allow_extra_args(false);
+}
+
+CLI::Option* add_unit(CLI::App& app, const std::string& name, std::string& unit,
+                      const std::string& help) {
+  std::string units;
+  for (const std::string& known : formats::length_units())
+    units += (units.empty() ? "" : "|") + known;
+  return app.add_option(name, unit, help + "; default: as the config says")->type_name(units);
 }
 
 int with_threads(std::size_t threads, const std::function<int()>& command) {

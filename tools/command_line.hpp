@@ -53,6 +53,10 @@ constexpr std::uint64_t kMostThreads = 1024;
 /// The option --set.
 void add_set(CLI::App& app, std::vector<std::string>& set);
 
+/// An option that names a unit of length.
+CLI::Option* add_unit(CLI::App& app, const std::string& name, std::string& unit,
+                      const std::string& help);
+
 /// Runs the command with that many threads, 0 for all; a flow graph belongs to the arena that it is
 /// made in.
 int with_threads(std::size_t threads, const std::function<int()>& command);

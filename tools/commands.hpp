@@ -21,6 +21,7 @@ struct RunCommand {
   std::string config, pipeline;
   std::vector<std::string> models, scenes, set;
   std::string dataset, split = "test";
+  std::string model_unit, scene_unit, sensor_pose;  ///< empty: as the config says
   std::string out = "out";
   std::string library, cache, shard;
   std::string on_error = "skip";
@@ -35,6 +36,7 @@ struct TrainCommand {
   std::string config;
   std::vector<std::string> models, set;
   std::string out, on_error = "skip";
+  std::string model_unit;  ///< empty: as the config says
 };
 int train_command(const TrainCommand& command);
 

@@ -123,13 +123,14 @@ void plan(const PipelineDescription& scenes, const PipelineDescription& models,
 }  // namespace
 
 Configuration load_configuration(const std::string& config, const std::vector<std::string>& sets,
-                                 const std::vector<Override>& defaults,
-                                 const std::string& pipeline) {
+                                 const std::vector<Override>& defaults, const std::string& pipeline,
+                                 const std::vector<Override>& options) {
   std::vector<Problem> problems;
   Configuration result;
   std::vector<Override> overrides = defaults;
   PipelineDescription scenes = read_wiring(config, pipeline, overrides, problems);
   for (const std::string& set : sets) overrides.push_back(graph::read_set(set, problems));
+  overrides.insert(overrides.end(), options.begin(), options.end());
   result.name = fs::path(find_config(config)).stem().string();
   result.pipeline = lasting_name(scenes);
   result.wiring = scenes;

@@ -27,12 +27,14 @@ struct Configuration {
 };
 
 /// Reads a config (a path, or the name of one in configs/) or a pipeline, applies `sets`
-/// ("node.param=value") over it and checks everything. `defaults` are overrides that yield to both.
-/// `pipeline`, unless empty, takes the place of the one that the config names. Throws
+/// ("node.param=value") over it and checks everything. `defaults` are overrides that yield to both,
+/// `options` those that both yield to. `pipeline`, unless empty, takes the place of the one that the
+/// config names. Throws
 /// graph::ConfigError with every problem at once.
 Configuration load_configuration(const std::string& config, const std::vector<std::string>& sets,
                                  const std::vector<graph::Override>& defaults = {},
-                                 const std::string& pipeline = "");
+                                 const std::string& pipeline = "",
+                                 const std::vector<graph::Override>& options = {});
 
 /// What the plan for scans takes from that for models: the library, by its stream's name, and what
 /// can be worked out of it once for all scans. Throws std::runtime_error "node: what".

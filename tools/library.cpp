@@ -3,11 +3,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "graph/runner.hpp"
+#include "nodes/formats/units.hpp"
 #include "nodes/library/library_file.hpp"
 
 namespace posevote {
@@ -76,8 +79,11 @@ std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
                                           const ModelFiles& models, BadModels bad) {
   ModelFiles sound = models;
   std::vector<LeftOutModel> left_out;
+  std::set<std::string> told;
   for (;;) {
     const auto result = graph::run_one(configuration.models, {}, {{}, {sound}});
+    for (const graph::Warning& warning : result.warnings)
+      if (told.insert(warning.what).second) spdlog::warn("{}", warning.what);
     if (!result.failure) {
       if (left_out.empty()) return result.result;
       auto library = std::make_shared<ModelLibrary>(*result.result);
@@ -88,6 +94,22 @@ std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
       throw std::runtime_error(message(*result.failure, sound));
     leave_out(*result.failure, sound, left_out);
     if (sound.empty()) throw std::runtime_error(all_failed(left_out));
+  }
+}
+
+void tell_odd_sizes(const Configuration& configuration, const ModelLibrary& library,
+                    const ModelFiles& files) {
+  const auto parameters = graph::effective_parameters(configuration.models);
+  const auto loading = parameters.find("load_models");
+  if (loading == parameters.end() || !loading->second.contains("unit")) return;
+  for (const auto& model : library.models) {
+    const std::string odd = formats::odd_model_size(model->diagonal, loading->second.at("unit"));
+    const auto file = std::find_if(files.begin(), files.end(), [&model](const ModelFile& other) {
+      return other.obj_id == model->obj_id;
+    });
+    if (!odd.empty())
+      spdlog::warn("{}: {}", file == files.end() ? "the model " + model->name : file->path.string(),
+                   odd);
   }
 }
 
@@ -106,8 +128,10 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
   if (fs::exists(file)) {
     std::string why_not;
     auto library = library::load_library(file, key, why_not);
-    if (library && (bad == BadModels::kLeaveOut || library->left_out.empty()))
+    if (library && (bad == BadModels::kLeaveOut || library->left_out.empty())) {
+      tell_odd_sizes(configuration, *library, models);
       return std::make_shared<const ModelLibrary>(std::move(*library));
+    }
     if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
   }
   auto library = train(configuration, models, bad);

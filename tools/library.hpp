@@ -20,11 +20,17 @@ inline BadModels bad_models(const std::string& on_error) {
 }
 
 /// Runs the models' plan. Without the models that are left out the library is as if they had not
-/// been asked for, but for their names: training begins anew. Throws std::runtime_error "node:
+/// been asked for, but for their names: training begins anew. Says on standard error what the nodes
+/// warn of. Throws std::runtime_error "node:
 /// what" if it fails, or no model is left.
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
                                           const ModelFiles& models,
                                           BadModels bad = BadModels::kStop);
+
+/// Names on standard error the models of a library trained before whose sizes say that their unit is
+/// another; training says so itself. `files`: theirs, or none.
+void tell_odd_sizes(const Configuration& configuration, const ModelLibrary& library,
+                    const ModelFiles& files);
 
 /// Names on standard error the models that are left out.
 void tell_left_out(const ModelLibrary& library);

@@ -17,6 +17,7 @@
 #include "tools/commands.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
+#include "tools/overrides.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -29,6 +30,14 @@ std::vector<graph::Override> dataset_defaults(const RunCommand& command) {
   if (command.dataset.empty()) return {};
   return {{"load_models", "unit", {"mm", {"--dataset", 0, 0}}},
           {"load_scene", "unit", {"mm", {"--dataset", 0, 0}}}};
+}
+
+Configuration read_configuration(const RunCommand& command) {
+  std::vector<graph::Override> options = model_overrides(command.model_unit);
+  for (graph::Override& change : scene_overrides(command.scene_unit, command.sensor_pose))
+    options.push_back(std::move(change));
+  return load_configuration(command.config, command.set, dataset_defaults(command),
+                            command.pipeline, options);
 }
 
 std::vector<SceneEntry> find_scenes(const RunCommand& command) {
@@ -58,6 +67,7 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
   auto library = library::load_library(command.library, library_key(configuration), why_not);
   if (!library)
     throw std::invalid_argument(command.library + ": " + why_not + "; train it with this config");
+  tell_odd_sizes(configuration, *library, {});
   return std::make_shared<const ModelLibrary>(std::move(*library));
 }
 
@@ -118,6 +128,8 @@ class Progress {
   void report(const graph::FrameResult<Detections>& result) {
     ++reported_;
     trace_.add(result.context.name, result.spans);
+    for (const graph::Warning& warning : result.warnings)
+      spdlog::warn("{}: {}: {}", result.context.file.string(), warning.node, warning.what);
     if (result.failure)
       spdlog::error("{}: {}: {}", result.context.file.string(), result.failure->node,
                     result.failure->what);
@@ -181,8 +193,7 @@ int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, b
 }  // namespace
 
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
-  const Configuration configuration =
-      load_configuration(command.config, command.set, dataset_defaults(command), command.pipeline);
+  const Configuration configuration = read_configuration(command);
   if (configuration.scenes.nodes.empty())
     throw std::invalid_argument(command.config +
                                 ": its pipeline has no `models`; expected one that "

@@ -5,11 +5,13 @@
 #include "tools/commands.hpp"
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
+#include "tools/overrides.hpp"
 
 namespace posevote {
 
 int train_command(const TrainCommand& command) {
-  const Configuration configuration = load_configuration(command.config, command.set);
+  const Configuration configuration =
+      load_configuration(command.config, command.set, {}, "", model_overrides(command.model_unit));
   const auto library =
       train(configuration, list_models(command.models), bad_models(command.on_error));
   library::save_library(*library, command.out, library_key(configuration));

@@ -39,6 +39,4 @@ DepthImage read_depth_image(const std::filesystem::path& path) {
   return find_reader<ReadDepth>(path, Wanted::kDepthImages)(bytes.view());
 }
 
-double metres_per(const std::string& unit) { return unit == "mm" ? 0.001 : 1.0; }
-
 }  // namespace posevote::formats

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "nodes/data/cloud.hpp"
 
@@ -16,8 +15,5 @@ Scan read_scan(const std::filesystem::path& path, double metres_per_unit);
 
 /// The same without where a sensor stood: of a model.
 Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit);
-
-/// Metres per "mm" or "m".
-double metres_per(const std::string& unit);
 
 }  // namespace posevote::formats

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads the models of a run, in metres, each in its own frame, in the order given: point clouds or
-// meshes, in any format of nodes/formats/read_*.cpp. Files are read in parallel. Fails with the
-// names of all models that could not be read.
+// meshes, in any format of nodes/formats/read_*.cpp. Files are read in parallel. Warns of a model
+// whose size says that its unit is another. Fails with the names of all models that could not be
+// read.
 //
 //   load_models: {in: model_files, out: model_meshes, unit: mm}
 #include <exception>
@@ -15,6 +16,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/files.hpp"
 #include "nodes/formats/read_scan.hpp"
+#include "nodes/formats/units.hpp"
 #include "nodes/geometry/extent.hpp"
 
 namespace posevote::load {
@@ -24,13 +26,17 @@ struct Params {
   std::string unit = "m";
 };
 
-Mesh load_model(const std::filesystem::path& file, double metres) {
-  Mesh model = formats::read_mesh(file, metres);
-  geometry::model_diagonal(model.points);  // here a model without one can be named
+Mesh load_model(const std::filesystem::path& file, const graph::FrameContext& context,
+                const std::string& unit) {
+  Mesh model = formats::read_mesh(file, formats::metres_per(unit));
+  const double diagonal = geometry::model_diagonal(model.points);  // one without fails here, named
+  const std::string odd = formats::odd_model_size(diagonal, unit);
+  if (!odd.empty()) context.warn(file.string() + ": " + odd);
   return model;
 }
 
-PerObject<Mesh> load_models(const ModelFiles& files, const Params& params) {
+PerObject<Mesh> load_models(const ModelFiles& files, const graph::FrameContext& context,
+                            const Params& params) {
   if (files.empty()) throw std::runtime_error("there are no models to load");
   PerObject<Mesh> models;
   models.slots.resize(files.size());
@@ -38,7 +44,7 @@ PerObject<Mesh> load_models(const ModelFiles& files, const Params& params) {
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
       models.slots[i] =
-          std::make_shared<const Mesh>(load_model(files[i].path, formats::metres_per(params.unit)));
+          std::make_shared<const Mesh>(load_model(files[i].path, context, params.unit));
     } catch (const std::exception& error) {
       problems[i] = error.what();
     }
@@ -59,7 +65,7 @@ const auto registered =
         .input("model_files")
         .output("model_meshes")
         .param("unit", &Params::unit, "", "Unit of length in model files.",
-               graph::one_of({"mm", "m"}));
+               graph::one_of(formats::length_units()));
 
 }  // namespace
 }  // namespace posevote::load

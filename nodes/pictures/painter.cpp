@@ -89,8 +89,9 @@ Perspective perspective_of(const Cloud& scan, const PointMatrix& also, int width
   view.eye = scan.view.origin;
   view.scale = static_cast<float>(width);
   if (scan.points.rows() == 0) return view;
-  const Eigen::Vector3f mean = scan.points.colwise().mean();
-  view.axes = axes_toward(mean - view.eye);
+  // Seen from the eye: far from the frame's origin the mean of the places themselves is inexact.
+  const PointMatrix from_eye = scan.points.rowwise() - view.eye.transpose();
+  view.axes = axes_toward(from_eye.colwise().mean().transpose());
   Seen seen = project(view, scan.points);
   if (seen.x.empty()) return view;
   const Seen more = project(view, also);

@@ -7,6 +7,19 @@
 namespace posevote {
 namespace {
 
+/// Units of the files, and where the sensor stood.
+void add_frames(CLI::App& app, RunCommand& command) {
+  add_unit(app, "--model-unit", command.model_unit, "Unit of length in model files");
+  add_unit(app, "--scene-unit", command.scene_unit,
+           "Unit of length in scans that are point files (images: load_scene.depth_scale)");
+  app.add_option("--sensor-pose", command.sensor_pose,
+                 "Where the sensor stood in the frame and unit of scans that are point files: "
+                 "'x y z', 'x y z qx qy qz qw' or a 4 x 4 matrix row by row, or a file of these. "
+                 "Default: of each scan NAME.ply the file NAME.pose beside it, a PCD's VIEWPOINT, "
+                 "or the origin")
+      ->type_name("NUMBERS|FILE");
+}
+
 void add_options(CLI::App& app, RunCommand& command) {
   app.footer(
       "Example:\n  posevote run uwa --models models/*.ply --scenes scans/ --out out/today\n\n"
@@ -27,6 +40,7 @@ void add_options(CLI::App& app, RunCommand& command) {
   app.add_option("--pipeline", command.pipeline,
                  "Other wiring than the config's, from pipelines/ (ransac, hough3d ...)")
       ->type_name("NAME");
+  add_frames(app, command);
   add_set(app, command.set);
   app.add_option("--threads", command.threads, "Threads; 0: all cores")
       ->check(whole_number(kMostThreads))

@@ -42,19 +42,38 @@ TEST_CASE("check_size: sizes that fit pass, unchanged", "[load]") {
   CHECK(same == passed);  // the very scan, not a copy of it
   CHECK(size_error(cube(0.15), library({0.3F})) == "(no error)");        // half hidden
   CHECK(size_error(cube(0.15), library({0.1F, 1.5F})) == "(no error)");  // less than the largest
-  CHECK(size_error(cube(12), library({0.05F})) == "(no error)");         // a room, a cup
-  CHECK(size_error(cube(0.3, 1), library({0.3F})) != "(no error)");      // one point: no size
+  Scan room = cube(12 * std::sqrt(3.0), 200000);
+  room.points.col(2).setZero();
+  CHECK(size_error(room, library({0.05F})) == "(no error)");         // a wall, a cup
+  CHECK(size_error(cube(0.3, 1), library({0.3F})) != "(no error)");  // one point: no size
 }
 
 TEST_CASE("check_size: a factor of 1000 is refused, in both directions", "[load]") {
   for (const double size : {0.25, 0.45, 1.0, 4.0}) {
     CHECK_THAT(size_error(cube(1000 * size), library({0.2F, 0.4F})),
-               has("load_models.unit (mm read as m"));
-    CHECK_THAT(size_error(cube(size / 1000), library({0.2F, 0.4F})), has("(m read as mm"));
-    CHECK_THAT(size_error(cube(size), library({200, 400})), has("(m read as mm"));
+               has("in mm, but read as m? Say --scene-unit mm"));
+    CHECK_THAT(size_error(cube(size / 1000), library({0.2F, 0.4F})),
+               has("in m, but read as mm? Say --scene-unit m "));
+    CHECK_THAT(size_error(cube(size), library({200, 400})), has("Say --model-unit mm"));
+    CHECK_THAT(size_error(cube(size), library({0.0002F, 0.0004F})), has("Say --model-unit m "));
   }
   CHECK_THAT(size_error(cube(1400), library({0.2F, 0.4F})),
-             has("diagonal is 13") && has(" m, the models' 0.2 m to 0.4 m: check load_scene.unit"));
+             has("diagonal is 13") && has(" m, the models' 0.2 m to 0.4 m"));
+}
+
+TEST_CASE("check_size: what is too small, or too sparse, to show any model", "[load]") {
+  CHECK(size_error(cube(0.1), library({0.4F})) == "(no error)");
+  CHECK_THAT(size_error(cube(0.07), library({0.4F})), has("the scan's diagonal is 0.0"));
+  CHECK_THAT(size_error(cube(0.04), library({0.4F})), has("Say --scene-unit"));
+  Scan wall = cube(100, 20000);  // 58 m wide, a point each 0.4 m
+  wall.points.col(2).setZero();
+  CHECK(size_error(wall, library({0.6F})) == "(no error)");
+  CHECK_THAT(size_error(wall, library({0.2F})),
+             has("less than from point to point of the scan: is the scan in mm"));
+  Scan image = cube(100);
+  image.view.pixels = {640, 480};
+  CHECK_THAT(size_error(image, library({0.2F})), has("check depth_scale"));
+  CHECK_THAT(size_error(cube(1e6), library({0.2F})), has("check --scene-unit"));
 }
 
 TEST_CASE("check_size: stray points change nothing", "[load]") {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <mutex>
+
 #include "nodes/data/files.hpp"
 #include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
@@ -20,6 +22,31 @@ TEST_CASE("load_models: one cloud a file, in order", "[load]") {
     CHECK(models[i].points(0, 0) == Approx(static_cast<double>(i) / 1000));
   const auto metres = run_node<PerObject<Mesh>>("load_models", {}, files);
   CHECK(metres[7].points(0, 0) == 7);
+}
+
+TEST_CASE("load_models: a model whose unit is evidently another is named", "[load]") {
+  const TempDir dir;
+  const ModelFiles files{{dir.write("a.obj", "v 100 0 0\nv 0 0 0\n"), 1, "a"},
+                         {dir.write("b.obj", "v 0.1 0 0\nv 0 0 0\n"), 2, "b"}};
+  const auto warnings = [&files](const std::string& unit) {
+    std::vector<std::string> told;
+    std::mutex telling;
+    graph::FrameContext context;
+    context.on_warning = [&](const std::string& what) {
+      const std::lock_guard lock(telling);
+      told.push_back(what);
+    };
+    const graph::NodeSpec* spec = graph::find_node("load_models");
+    const auto params = spec->make_params();
+    spec->params.at(0).set(params.get(), unit);
+    spec->call({graph::StreamTraits<ModelFiles>::wrap(ModelFiles(files))}, context, params.get());
+    return told;
+  };
+  REQUIRE(warnings("m").size() == 1);
+  CHECK_THAT(warnings("m")[0], has("a.obj: its diagonal is 100 m, read as m: is it in mm?"));
+  REQUIRE(warnings("mm").size() == 1);
+  CHECK_THAT(warnings("mm")[0], has("b.obj: ") && has("is it in m? Say --model-unit m "));
+  CHECK(warnings("cm").empty());
 }
 
 TEST_CASE("load_models: errors name every file that could not be read", "[load]") {

@@ -38,6 +38,58 @@ TEST_CASE("load_scene: the data set's camera goes before the parameters", "[load
              has("none of the image's 2 pixels"));
 }
 
+TEST_CASE("load_scene: the sensor's place is said, beside the file, in it, or the origin",
+          "[load]") {
+  const TempDir dir;
+  const auto place = [](const SceneFile& scene, const std::map<std::string, std::string>& params) {
+    return run_node<Scan>("load_scene", params, scene).view.origin;
+  };
+  SceneFile ply, pcd;
+  ply.path = dir.write("a.obj", "v 100 200 300\n");
+  pcd.path = dir.write("b.pcd",
+                       "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\n"
+                       "HEIGHT 1\nVIEWPOINT 10 20 30 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
+  CHECK(place(ply, {}).isZero());
+  CHECK(place(pcd, {{"unit", "mm"}}).isApprox(Eigen::Vector3f(0.01F, 0.02F, 0.03F)));
+  dir.write("a.pose", "1 0 0 4\n0 1 0 5\n0 0 1 6\n0 0 0 1\n");
+  dir.write("b.pose", "4 5 6\n");
+  for (const SceneFile& scene : {ply, pcd}) {
+    CHECK(place(scene, {{"unit", "cm"}}).isApprox(Eigen::Vector3f(0.04F, 0.05F, 0.06F)));
+    CHECK(place(scene, {{"sensor_pose", "[7, 8, 9]"}}) == Eigen::Vector3f(7, 8, 9));
+  }
+}
+
+TEST_CASE("load_scene: a sensor's pose that cannot be used", "[load]") {
+  const TempDir dir;
+  SceneFile scene;
+  scene.path = dir.write("a.obj", "v 100 200 300\n");
+  dir.write("a.pose", "1 2 3 4 5 6\n");
+  const std::string error = error_of([&] { run_node<Scan>("load_scene", {}, scene); });
+  CHECK_THAT(error, has("a.pose: the sensor's pose has 6 numbers"));
+  dir.write("a.pose", "1e39 0 0\n");
+  CHECK_THAT(error_of([&] { run_node<Scan>("load_scene", {}, scene); }), has("too far away"));
+  std::filesystem::remove(dir.path("a.pose"));
+  std::filesystem::create_symlink(dir.path("nowhere"), dir.path("a.pose"));
+  CHECK_THAT(error_of([&] { run_node<Scan>("load_scene", {}, scene); }), has("dangling link"));
+  const graph::NodeSpec* spec = graph::find_node("load_scene");
+  REQUIRE(spec);
+  const auto params = spec->make_params();
+  for (const graph::ParamSpec& param : spec->params)
+    if (param.name == "sensor_pose") {
+      CHECK(param.set(params.get(), "[1, 2, nan]"));
+      CHECK_FALSE(param.set(params.get(), "[1, 2]"));
+    }
+  CHECK_THAT(spec->check(params.get()), has("has 2 numbers"));
+  scene.path = dir.write("depth.png", depth_png(2, 1, {0, 1000}));
+  scene.camera = Camera{10, 10, 0.5, 0.5, 1};
+  dir.write("depth.pose", "1 2 3\n");  // many data sets have the camera's pose in the world there
+  CHECK(run_node<Scan>("load_scene", {}, scene).view.origin.isZero());
+  CHECK_THAT(error_of([&] {
+               run_node<Scan>("load_scene", {{"sensor_pose", "[1, 2, 3]"}}, scene);
+             }),
+             has("--sensor-pose"));
+}
+
 TEST_CASE("load_scene: limits that exclude each other", "[load]") {
   const graph::NodeSpec* spec = graph::find_node("load_scene");
   REQUIRE(spec);

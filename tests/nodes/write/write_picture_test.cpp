@@ -91,6 +91,24 @@ TEST_CASE("the picture is upright for cameras that look along +z and along -z", 
   }
 }
 
+TEST_CASE("a scan far from its frame's origin is seen as from there", "[write]") {
+  const Cloud scan = wall();
+  Cloud far = scan;
+  const Eigen::RowVector3f away(300, -200, 100);
+  far.points.rowwise() += away;
+  far.view.origin = away.transpose();
+  const pictures::Perspective here = pictures::perspective_of(scan, {}, 100);
+  const pictures::Perspective there = pictures::perspective_of(far, {}, 100);
+  CHECK(there.eye == far.view.origin);
+  CHECK(there.axes.isApprox(here.axes, 1e-4F));
+  CHECK(there.scale == Approx(here.scale).epsilon(0.02));  // by a row more or less
+  for (Eigen::Index i = 0; i < scan.points.rows(); i += 100) {
+    const Eigen::Vector2f a = here.in_picture(here.in_view(scan.points.row(i)));
+    const Eigen::Vector2f b = there.in_picture(there.in_view(far.points.row(i)));
+    CHECK((a - b).norm() < 1.5F);
+  }
+}
+
 TEST_CASE("what reaches beyond the scan is in the picture, too", "[write]") {
   const Cloud scan = wall();
   PointMatrix also(1, 3);
