@@ -153,9 +153,10 @@ class Progress {
     std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, count_,
                 frame.file.filename().c_str(), detections.items.size(), seconds);
     for (const Detection& item : detections.items)
-      std::printf("    %-24s score %.2f  density %.0f (next %.0f)  inliers %.0f %%  rms %.2f mm\n",
-                  item.model.c_str(), item.score, item.density, item.runner_up_density,
-                  100 * item.inlier_fraction, 1e3 * item.rmse);
+      std::printf(
+          "    %-24s confidence %.2f  density %.0f (next %.0f)  inliers %.0f %%  rms %.2f mm\n",
+          item.model.c_str(), item.confidence, item.density, item.runner_up_density,
+          100 * item.inlier_fraction, 1e3 * item.rmse);
     std::fflush(stdout);
   }
 

@@ -41,9 +41,8 @@ ObjectSearch* best_of(const Searches& searches) {
   }
 }
 
-}  // namespace
-
-std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
+/// With those that are doubtful.
+std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState& scan) {
   const Searches sorted = sorted_by_id(searches);
   std::vector<Instance> found;
   // When all that was proposed is used up, what was taken out may have uncovered other modes.
@@ -57,10 +56,21 @@ std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanSt
         return found;
       const Eigen::Isometry3d& T_scene_model = instance.candidate.T_scene_model;
       scan.take_out(search->model(), T_scene_model, search->params().explained_distance);
-      scan.usual_residual.add(instance.candidate.fit,
-                              scan.range_of(search->model(), T_scene_model));
+      if (instance.candidate.confidence >= search->params().min_confidence)
+        scan.usual_residual.add(instance.candidate.fit,
+                                scan.range_of(search->model(), T_scene_model));
       search->choose();
     }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
+  std::vector<Instance> found = search_all(searches, scan);
+  std::erase_if(found, [&](const Instance& instance) {
+    return instance.candidate.confidence < searches[instance.object].params().min_confidence;
+  });
   return found;
 }
 

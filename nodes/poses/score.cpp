@@ -26,7 +26,7 @@ void judge(const Sought& sought, Candidate& candidate, Eigen::Index points) {
 
 bool is_convincing(const Sought& sought, const Candidate& candidate) {
   return candidate.score() > 0 && candidate.score() >= sought.params.min_score &&
-         candidate.confidence >= sought.params.min_confidence;
+         candidate.confidence >= sought.terms.confidence.doubtful * sought.params.min_confidence;
 }
 
 double exactness(const Sought& sought, const Candidate& candidate) {

@@ -17,7 +17,7 @@ void grade(const Sought& sought, Candidate& candidate);
 /// Measures the fit by some model points, and grades.
 void judge(const Sought& sought, Candidate& candidate, Eigen::Index points);
 
-/// Whether a refined pose reaches the thresholds of score and confidence.
+/// Whether a refined pose may be an instance: it reaches min_score and is not more than doubtful.
 bool is_convincing(const Sought& sought, const Candidate& candidate);
 
 /// In [least_exactness, 1], by the instances of all objects that were found before.

@@ -129,6 +129,12 @@ void add_confidence(Node& node) {
         [i](SegmentParams& params) -> double& { return params.terms.confidence.weights[i]; },
         "log odds", "Weight of that clue in the confidence. Found by posevote calibrate.",
         in_range(-1e6, 1e6));
+  const Register<ConfidenceTerms> term{node, &Terms::confidence};
+  term("doubtful", &ConfidenceTerms::doubtful, "x min_confidence",
+       "Poses from this confidence up take the points that they explain, so that others are looked "
+       "for elsewhere; they are no detections below min_confidence. 1: true poses that are found "
+       "behind a doubtful one are lost (YCB-Video: 42 of 51 instead of 44).",
+       in_range(0, 1));
   node.expert_param(
       "confidence_offset",
       [](SegmentParams& params) -> double& { return params.terms.confidence.offset; }, "log odds",

@@ -48,10 +48,11 @@ struct ScoreTerms {
 };
 
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as `posevote calibrate`
-/// found them on the sets of calibrate.yaml.
+/// found them on configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -26.0;
-  Clues weights{1.0, 0.43, 1.49, 18.0, 0.6, -1.9, 2.67, 1.55};
+  double offset = -28.03;
+  double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
+  Clues weights{1.134, 0.5115, 1.285, 17.81, 0.5794, -2.294, 5.322, 1.27};
 };
 
 /// How far it is refined (refinement.hpp).

@@ -62,11 +62,11 @@ std::string whole_page(const TemporaryFolder& folder, std::size_t pictures = 50)
   return page;
 }
 
-Detection found(const std::string& model, double score) {
+Detection found(const std::string& model, double confidence) {
   Detection found;
   found.obj_id = 1;
   found.model = model;
-  found.score = score;
+  found.confidence = confidence;
   found.density = 1234;
   found.runner_up_density = 56;
   found.inlier_fraction = 0.78;
@@ -121,7 +121,7 @@ TEST_CASE("a run: frames, models, stages, failures, parameters, pictures", "[rep
                        Contains("<dt>detections</dt><dd>3</dd>") &&
                        Contains("<dt>median time of a frame</dt><dd>2.00 s</dd>") &&
                        Contains("<dt>longest</dt><dd>3.00 s</dd>"));
-  // chef: two detections in two frames, their scores in one bar.
+  // chef: two detections in two frames, their confidences in one bar.
   CHECK_THAT(page,
              Contains("<tr><td>chef</td><td class=\"number\">2</td><td class=\"number\">2</td>"
                       "<td class=\"number\">0.920</td>") &&
@@ -182,8 +182,8 @@ TEST_CASE("torn and strange lines of results are left out", "[report]") {
       "results.json",
       "{\"frames\": [\n"
       "{\"frame\": \"x\", \"file\": 7, \"stages\": [1], \"detections\": 3},\n"
-      "{\"frame\": 1e300, \"stages\": {\"a\": \"b\"}, \"detections\": [{\"score\": null}]},\n"
-      "{\"frame\": 2, \"detections\": [{\"score\": -1e300, \"obj_id\": \"<\"}, []]}\n");
+      "{\"frame\": 1e300, \"stages\": {\"a\": \"b\"}, \"detections\": [{\"confidence\": null}]},\n"
+      "{\"frame\": 2, \"detections\": [{\"confidence\": -1e300, \"obj_id\": \"<\"}, []]}\n");
   page = whole_page(folder);
   CHECK_THAT(page, Contains("<dt>frames answered</dt><dd>3</dd>") && !Contains("nan"));
   folder.write("results.json", "\x89\xff{{{");

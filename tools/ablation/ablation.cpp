@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <stdexcept>
 
 #include "tools/ablation/variations.hpp"
-#include "tools/simulate/simulate.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -15,40 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ablation::Row;
-using ablation::TestSet;
-
-/// A few images of each replica: some thirty instances tell what a term is for.
-const std::map<std::string, std::size_t> kEvery = {
-    {"demo", 1}, {"uwa", 6}, {"queens", 10}, {"icbin", 30}, {"icmi", 40}};
-
-/// The replica of a config's scenes; it is made where it is not there yet, without images that
-/// nobody will look at.
-fs::path find_replica(const std::string& config, std::size_t every, const fs::path& out) {
-  const fs::path dataset = out / "replicas" / (config + "_every_" + std::to_string(every));
-  const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + config + "_scenes.yaml";
-  if (!fs::exists(spec))
-    throw std::invalid_argument("--sets " + config +
-                                ": expected one of demo, uwa, queens, icbin, " +
-                                "icmi, or CONFIG=DIR for a real set");
-  if (!fs::exists(dataset)) simulate(spec, dataset, every);
-  return dataset;
-}
-
-/// "uwa": its replica; "bop=DIR": a real set.
-TestSet find_set(const std::string& text, const ExperimentCommand& command, const fs::path& out) {
-  const std::size_t equals = text.find('=');
-  if (equals != std::string::npos) {
-    const fs::path dataset = text.substr(equals + 1);
-    const std::string config = text.substr(0, equals);
-    const std::string name = dataset.filename().empty() ? config : dataset.filename().string();
-    return {name, config, dataset, std::max<std::size_t>(1, command.every)};
-  }
-  const auto known = kEvery.find(text);
-  std::size_t every = known == kEvery.end() ? 1 : known->second;
-  if (command.quick) every *= 4;
-  if (command.every > 0) every = command.every;
-  return {text, text, find_replica(text, every, out), 1};  // holds what is to be seen
-}
 
 std::vector<TestSet> find_sets(const ExperimentCommand& command, const fs::path& out) {
   std::vector<std::string> texts = command.sets;
@@ -59,7 +23,8 @@ std::vector<TestSet> find_sets(const ExperimentCommand& command, const fs::path&
     texts = command.quick ? std::vector<std::string>{"demo"}
                           : std::vector<std::string>{"uwa", "queens", "icbin", "icmi"};
   std::vector<TestSet> sets;
-  for (const std::string& text : texts) sets.push_back(find_set(text, command, out));
+  for (const std::string& text : texts)
+    sets.push_back(find_set(text, command.every, command.quick, out));
   return sets;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/experiment/experiment.hpp"
+#include "tools/experiment/test_set.hpp"
 
 namespace posevote {
 
@@ -19,14 +20,6 @@ int ablation_experiment(const ExperimentCommand& command, const std::filesystem:
                         const std::atomic<bool>& interrupted);
 
 namespace ablation {
-
-/// A data set and the config that recognises in it.
-struct TestSet {
-  std::string name;    ///< in tables
-  std::string config;  ///< a name from configs/
-  std::filesystem::path dataset;
-  std::size_t every = 1;  ///< one image of so many
-};
 
 /// What a variation reaches on a set.
 struct Outcome {

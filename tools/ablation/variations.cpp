@@ -13,7 +13,17 @@ namespace {
 const std::set<std::string> kTask = {"max_instances"};
 
 const std::map<std::string, std::string> kOff = {{"candidates", "1"},
+                                                 {"min_confidence", "0"},
                                                  {"min_score", "0"},
+                                                 {"doubtful", "1"},
+                                                 {"confidence_agreement", "0"},
+                                                 {"confidence_relief", "0"},
+                                                 {"confidence_outline", "0"},
+                                                 {"confidence_continuity", "0"},
+                                                 {"confidence_votes", "0"},
+                                                 {"confidence_residual", "0"},
+                                                 {"confidence_exactness", "0"},
+                                                 {"confidence_support", "0"},
                                                  {"refine", "false"},
                                                  {"max_residual", "0"},
                                                  {"shortlist", "10000"},  // all are improved

@@ -36,18 +36,6 @@ std::optional<Calibration> calibrate(const std::vector<Verdict>& verdicts) {
   return calibration;
 }
 
-std::vector<Verdict> verdicts_of(const std::vector<CurvePoint>& curve) {
-  std::vector<Verdict> verdicts;
-  Counts before;
-  for (const CurvePoint& point : curve) {
-    const auto correct = std::lround(point.counts.correct - before.correct);
-    for (int i = 0; i < point.counts.detections - before.detections; ++i)
-      verdicts.push_back({point.score, i < correct});
-    before = point.counts;
-  }
-  return verdicts;
-}
-
 std::string reliability_svg(const std::vector<NamedCalibration>& all) {
   plot::Chart chart;
   chart.title = "reliability", chart.x_label = "score", chart.y_label = "share right";

@@ -30,9 +30,6 @@ struct Calibration {
 /// Empty-handed where a score is no probability: outside of [0, 1].
 std::optional<Calibration> calibrate(const std::vector<Verdict>& verdicts);
 
-/// The verdicts that a curve counts, in descending order of their score.
-std::vector<Verdict> verdicts_of(const std::vector<CurvePoint>& curve);
-
 /// A reliability diagram: share right over mean score, a line for each named calibration beside the
 /// diagonal on which it should lie; SVG.
 struct NamedCalibration {

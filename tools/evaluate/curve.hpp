@@ -22,6 +22,7 @@ struct Counts {
 struct Verdict {
   double score = 0;
   bool correct = false;
+  int line = 0;  ///< of the results file (FoundInstance::line)
 };
 
 /// The counts where the detections from `score` up are taken.

@@ -106,6 +106,7 @@ RuleResult summarise(const Sum& sum, std::size_t rule, const Evaluation& evaluat
   }
   for (const Verdict& verdict : sum.verdicts)
     result.counts.detections += verdict.score >= evaluation.options.min_score;
+  result.verdicts = sum.verdicts;
   if (!evaluation.rules[rule].average())
     result.curve = make_curve(sum.verdicts, result.counts.instances);
   return result;
@@ -135,7 +136,7 @@ void summarise_all(const std::vector<std::vector<CaseResult>>& images, Evaluatio
 }  // namespace
 
 double calibration_error(const RuleResult& result) {
-  const auto calibration = calibrate(verdicts_of(result.curve));
+  const auto calibration = calibrate(result.verdicts);
   return calibration && calibration->count > 0 ? calibration->error : kUnknown;
 }
 

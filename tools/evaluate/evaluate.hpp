@@ -48,7 +48,8 @@ struct VisibleBin {
 struct RuleResult {
   Counts counts;                  ///< from min_score up
   int unmeasured = 0;             ///< counted instances without the depth image or camera it needs
-  std::vector<CurvePoint> curve;  ///< empty for average recalls
+  std::vector<Verdict> verdicts;  ///< on its detections; empty for average recalls
+  std::vector<CurvePoint> curve;  ///< of these
   std::array<VisibleBin, 10> by_visibility;  ///< 0-10 % .. 90-100 % visible
 };
 

@@ -135,7 +135,7 @@ std::vector<Verdict> verdicts(const Case& group, const std::vector<std::size_t>&
   for (std::size_t k = 0; k < matched.size(); ++k) {
     const bool correct = matched[k] != kNone;
     if (!correct || group.results[matched[k]]->counted)
-      list.push_back({group.found[k]->score, correct});
+      list.push_back({group.found[k]->score, correct, group.found[k]->line});
   }
   return list;
 }

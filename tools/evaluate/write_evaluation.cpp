@@ -114,7 +114,7 @@ std::vector<NamedCalibration> calibrations_of(const Evaluation& evaluation) {
   std::vector<NamedCalibration> all;
   for (std::size_t r = 0; r < evaluation.rules.size(); ++r)
     if (!evaluation.rules[r].average())
-      if (const auto made = calibrate(verdicts_of(evaluation.all[r].curve)))
+      if (const auto made = calibrate(evaluation.all[r].verdicts))
         all.push_back({evaluation.rules[r].name, *made});
   return all;
 }

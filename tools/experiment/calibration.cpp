@@ -42,7 +42,7 @@ std::vector<Verdict> judge(const JudgedRun& run, const std::string& rule) {
                                          read_results_csv(run.results), options);
   if (evaluation.rules.size() != 1 || evaluation.rules[0].average())
     throw std::invalid_argument("--rule " + rule + ": expected one that is met or not");
-  return verdicts_of(evaluation.all[0].curve);
+  return evaluation.all[0].verdicts;
 }
 
 Calibration calibrate(const std::vector<Verdict>& verdicts, const std::string& results) {

@@ -60,16 +60,16 @@ class Pictures {
 };
 
 constexpr html::Kind kNumber = html::Kind::kNumber;
-const std::vector<html::Column> kColumns = {{"frame", kNumber},     {"scan", html::Kind::kLong},
-                                            {"time [s]", kNumber},  {"model"},
-                                            {"score", kNumber},     {"density", kNumber},
-                                            {"runner-up", kNumber}, {"inliers [%]", kNumber},
+const std::vector<html::Column> kColumns = {{"frame", kNumber},      {"scan", html::Kind::kLong},
+                                            {"time [s]", kNumber},   {"model"},
+                                            {"confidence", kNumber}, {"density", kNumber},
+                                            {"runner-up", kNumber},  {"inliers [%]", kNumber},
                                             {"RMSE [mm]", kNumber}};
 constexpr std::size_t kFirstOfObject = 3;
 
 html::Row object_cells(const FoundObject& found) {
   return {escape_markup(found.model),
-          html::number(found.score, 3),
+          html::number(found.confidence, 3),
           html::number(found.density, 0),
           html::number(found.runner_up_density, 0),
           html::number(100 * found.inlier_fraction, 0),

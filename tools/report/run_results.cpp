@@ -32,7 +32,7 @@ std::string text(const Json& json, const std::string& key) {
 
 FoundObject to_object(const Json& json) {
   FoundObject found{text(json, "model"),
-                    number(json, "score"),
+                    number(json, "confidence"),
                     number(json, "density"),
                     number(json, "runner_up_density"),
                     number(json, "inlier_fraction"),

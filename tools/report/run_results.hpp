@@ -14,7 +14,7 @@ namespace posevote {
 /// What is missing, or is no number, is NaN; text is empty.
 struct FoundObject {
   std::string model;
-  double score = 0, density = 0, runner_up_density = 0, inlier_fraction = 0, rmse = 0;
+  double confidence = 0, density = 0, runner_up_density = 0, inlier_fraction = 0, rmse = 0;
 };
 
 struct AnsweredFrame {

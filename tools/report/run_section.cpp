@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFailures = 1000;
-constexpr std::size_t kBins = 20;  // of scores from 0 to 1
+constexpr std::size_t kBins = 20;  // of confidences from 0 to 1
 
 std::string figure(const std::string& what, const std::string& value) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", what, value);
@@ -48,15 +48,15 @@ std::string summary(const RunResults& run) {
   return text;
 }
 
-/// How many scores lie where from 0 to 1.
-std::string histogram(const std::vector<double>& scores) {
+/// How many confidences lie where from 0 to 1.
+std::string histogram(const std::vector<double>& confidences) {
   std::array<std::size_t, kBins> bins{};
-  for (const double score : scores)
-    ++bins[static_cast<std::size_t>(std::clamp(score * kBins, 0.0, kBins - 1.0))];
+  for (const double confidence : confidences)
+    ++bins[static_cast<std::size_t>(std::clamp(confidence * kBins, 0.0, kBins - 1.0))];
   const std::size_t most = std::max<std::size_t>(1, *std::max_element(bins.begin(), bins.end()));
   std::string text =
       "<svg class=\"bars\" width=\"200\" height=\"40\" viewBox=\"0 0 200 40\" role=\"img\" "
-      "aria-label=\"histogram of the scores\">\n";
+      "aria-label=\"histogram of the confidences\">\n";
   for (std::size_t b = 0; b < kBins; ++b) {
     if (bins[b] == 0) continue;
     const double height = 38.0 * static_cast<double>(bins[b]) / static_cast<double>(most);
@@ -71,7 +71,7 @@ std::string histogram(const std::vector<double>& scores) {
 
 std::string models(const RunResults& run) {
   struct Model {
-    std::vector<double> scores;
+    std::vector<double> confidences;
     std::size_t frames = 0;
     const AnsweredFrame* last = nullptr;
   };
@@ -79,22 +79,22 @@ std::string models(const RunResults& run) {
   for (const AnsweredFrame& frame : run.frames)
     for (const FoundObject& found : frame.found) {
       Model& model = models[found.model];
-      if (std::isfinite(found.score)) model.scores.push_back(found.score);
+      if (std::isfinite(found.confidence)) model.confidences.push_back(found.confidence);
       if (std::exchange(model.last, &frame) != &frame) ++model.frames;
     }
   if (models.empty()) return "";
   std::vector<html::Row> rows;
   rows.reserve(models.size());
   for (const auto& [name, model] : models)
-    rows.push_back({escape_markup(name), std::to_string(model.scores.size()),
+    rows.push_back({escape_markup(name), std::to_string(model.confidences.size()),
                     std::to_string(model.frames),
-                    model.scores.empty() ? "-" : html::number(median(model.scores), 3),
-                    histogram(model.scores)});
+                    model.confidences.empty() ? "-" : html::number(median(model.confidences), 3),
+                    histogram(model.confidences)});
   return html::heading("Models") + html::table({{"model"},
                                                 {"detections", html::Kind::kNumber},
                                                 {"in frames", html::Kind::kNumber},
-                                                {"median score", html::Kind::kNumber},
-                                                {"scores, 0 to 1"}},
+                                                {"median confidence", html::Kind::kNumber},
+                                                {"confidences, 0 to 1"}},
                                                rows);
 }
 

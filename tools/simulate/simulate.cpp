@@ -67,6 +67,14 @@ Studio open_studio(const Spec& spec) {
   return studio;
 }
 
+/// No thing is as its model says.
+std::shared_ptr<const Mesh> stretched(const Mesh& mesh, double most, Random& random) {
+  auto out = std::make_shared<Mesh>(mesh);
+  for (int axis = 0; axis < 3; ++axis)
+    out->points.col(axis) *= static_cast<float>(1 + random.uniform(-most, most));
+  return out;
+}
+
 /// Objects and clutter in mixed order, so that either may lie on the other; the ground last.
 std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& random) {
   const bool bin = scene.ground == "bin";
@@ -74,6 +82,8 @@ std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& 
   for (const int obj_id : scene.objects)
     bodies.push_back({studio.models[static_cast<std::size_t>(obj_id) - 1], obj_id,
                       Eigen::Isometry3d::Identity()});
+  if (scene.inexact > 0)
+    for (Body& body : bodies) body.mesh = stretched(*body.mesh, scene.inexact, random);
   for (int i = 0; i < scene.clutter; ++i)
     bodies.push_back({studio.clutter[random.next() % kClutter], 0, Eigen::Isometry3d::Identity()});
   for (std::size_t i = bodies.size(); i > 1; --i)

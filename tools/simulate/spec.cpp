@@ -43,6 +43,8 @@ const std::vector<ParamSpec>& scene_params() {
       make_param<SceneSpec>("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
       make_param<SceneSpec>("noise", &SceneSpec::noise, "m", "Deviation of ranges.",
                             in_range(0, 0.05)),
+      make_param<SceneSpec>("inexact", &SceneSpec::inexact, "", "Objects differ from models.",
+                            in_range(0, 0.2)),
       make_param<SceneSpec>("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
       make_param<SceneSpec>("radius", &SceneSpec::radius, "m", "Bodies drop inside.",
                             in_range(0.01, 1)),

@@ -22,6 +22,7 @@ struct SceneSpec {
   std::string ground = "table";  ///< or "bin", or "unseen"
   std::string sensor = "laser";
   double noise = kSensorsOwn;  ///< deviation of ranges at any distance, instead of the sensor's [m]
+  double inexact = 0;          ///< real things are stretched along each axis by up to this share
   std::vector<int> objects;    ///< obj_id of each instance
   int clutter = 3;             ///< bodies that are no models
   double radius = 0.15;        ///< within which bodies are dropped; of a bin, half its side [m]

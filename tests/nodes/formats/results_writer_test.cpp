@@ -24,7 +24,8 @@ Detections one_chef() {
   Detection found;
   found.obj_id = 7;
   found.model = "chef";
-  found.score = 0.5;
+  found.confidence = 0.5;
+  found.score = 0.4;
   found.density = 100;
   found.T_scene_model.linear() =
       Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitZ()).toRotationMatrix();

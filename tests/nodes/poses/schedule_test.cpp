@@ -92,7 +92,7 @@ TEST_CASE("only what may turn out the best is refined", "[poses]") {
   };
   CHECK(refined({0.9, 0.8, 0.7, 0.6, 0.5}) == 4);  // the finalists
   CHECK(refined({0.9, 0.8, 0.2, 0.2}) == 2);       // a quarter of the best one's rank
-  CHECK(refined({0.07, 0.07}) == 0);               // a quarter of min_score
+  CHECK(refined({0.02, 0.02}) == 0);               // a quarter of min_score
   body.params.terms.schedule.hopeless = 0;
   CHECK(refined({0.9, 0.8, 0.2, 0.2}) == 4);
   CHECK(refined({}) == 0);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "nodes/poses/confidence.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
 using namespace posevote;
@@ -52,24 +53,33 @@ TEST_CASE("consensus is the share of the features there that had voted", "[poses
       body.scan.count_explained(body.model, beside(0), sought.params.tolerance, sought.voters));
   REQUIRE(features > 50);
   sought.votes_per_correspondence = 60;
-  CHECK(poses::consensus(sought, body.candidate(beside(0), 2 * features)) == 1);
-  CHECK(poses::consensus(sought, body.candidate(beside(0), 0.1 * features)) ==
-        Approx(std::pow(0.1, 0.15)));
+  const auto consensus = [&](double support) {
+    return poses::consensus(poses::votes_per_feature(sought, body.candidate(beside(0), support)),
+                            body.params.terms.score);
+  };
+  CHECK(consensus(2 * features) == 1);
+  CHECK(consensus(0.1 * features) == Approx(std::pow(0.1, 0.15)));
   sought.votes_per_correspondence = 120;  // support grows with the votes
-  CHECK(poses::consensus(sought, body.candidate(beside(0), 0.2 * features)) ==
-        Approx(std::pow(0.1, 0.15)));
+  CHECK(consensus(0.2 * features) == Approx(std::pow(0.1, 0.15)));
 }
 
-TEST_CASE("a pose convinces by quality and consensus, that of a rival by quality", "[poses]") {
+TEST_CASE("a pose convinces by score and confidence; a rival's has no consensus", "[poses]") {
   SoughtBody body({kBody});
   body.params.min_score = 0.75;
   poses::Sought sought = body.sought();
   poses::Candidate lonely = body.candidate(beside(0), 0.1);
   poses::judge(sought, lonely, 0);
+  poses::believe(sought, lonely);
   REQUIRE(lonely.quality > 0.8);
   CHECK(poses::is_convincing(sought, lonely));
   CHECK(lonely.score() == lonely.quality);
+  lonely.confidence = 0.3;  // doubtful
+  CHECK(poses::is_convincing(sought, lonely));
+  lonely.confidence = 0.1;
+  CHECK_FALSE(poses::is_convincing(sought, lonely));
   sought.votes_per_correspondence = 60;
+  poses::believe(sought, lonely);
+  lonely.confidence = 1;
   CHECK_FALSE(poses::is_convincing(sought, lonely));
   CHECK(lonely.score() < 0.5 * lonely.quality);
 }

@@ -54,7 +54,7 @@ inline Detection make_detection(const Eigen::Vector3d& place) {
   Detection found;
   found.obj_id = 1;
   found.model = "patch";
-  found.score = 0.75;
+  found.confidence = 0.75;
   found.T_scene_model.translation() = place;
   return found;
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/confidence.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "nodes/poses/score.hpp"
+#include "tests/nodes/poses/sought_body.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+namespace {
+
+/// Of a pose for which all speaks.
+poses::Fit good_fit() {
+  poses::Fit fit;
+  fit.facing = fit.supported = 1000;
+  fit.ends = 400;
+  fit.inlier_fraction = 1;
+  fit.rmse = 5e-4;
+  fit.relief = 0.5;
+  return fit;
+}
+
+double believed(const poses::Fit& fit, double exactness = 1, double votes = 0.5) {
+  return poses::confidence_of(poses::clues_of(fit, exactness, votes, 4e-3), {});
+}
+
+}  // namespace
+
+TEST_CASE("each clue moves the confidence its way", "[poses]") {
+  const double usual = believed(good_fit());
+  CHECK(usual > 0.98);
+  poses::Fit fit = good_fit();
+  fit.contradicted = 800, fit.facing = 1800;
+  CHECK(believed(fit) < usual);
+  fit = good_fit();
+  fit.overhang = 80;
+  CHECK(believed(fit) < usual);
+  fit = good_fit();
+  fit.ends = 0;
+  CHECK(believed(fit) < usual);
+  fit = good_fit();
+  fit.supported = fit.facing = 40, fit.ends = 16;
+  CHECK(believed(fit) < usual);
+  fit = good_fit();
+  fit.rmse = 3e-3;
+  CHECK(believed(fit) < usual);
+  CHECK(believed(good_fit(), 0.6) < usual);
+  CHECK(believed(good_fit(), 1, 0.01) < usual);
+}
+
+TEST_CASE("a sample of the points makes the same clues", "[poses]") {
+  poses::Fit sample = good_fit();
+  sample.facing = sample.supported = 100, sample.ends = 40;
+  sample.stands_for = 10;
+  const Clues all = poses::clues_of(good_fit(), 1, 0.5, 4e-3);
+  const Clues few = poses::clues_of(sample, 1, 0.5, 4e-3);
+  for (std::size_t i = 0; i < kClueCount; ++i) CHECK(few[i] == Approx(all[i]));
+}
+
+TEST_CASE("the true pose is believed, one beside it less, one elsewhere not", "[poses]") {
+  const SoughtBody body({kBody});
+  const auto confidence = [&](const Eigen::Isometry3d& T_scene_model) {
+    poses::Candidate one = body.candidate(T_scene_model);
+    one.is_refined = true;
+    poses::judge(body.sought(), one, 0);
+    poses::believe(body.sought(), one);
+    return one.confidence;
+  };
+  CHECK(confidence(beside(0)) > 0.9);
+  CHECK(confidence(beside(0.006, 0.3)) < confidence(beside(0)));
+  CHECK(confidence(beside(0.5)) == 0);
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/calibrate/calibrate.hpp"
+
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include "tools/calibrate/judged_poses.hpp"
+#include "tools/calibrate/logistic.hpp"
+#include "tools/commands.hpp"
+#include "tools/evaluate/calibration.hpp"
+#include "tools/experiment/test_set.hpp"
+#include "tools/write_text.hpp"
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+using Poses = std::vector<JudgedPose>;
+
+constexpr std::size_t kFolds = 5;
+
+/// A run that keeps whatever the search looked at.
+int run_on(const TestSet& set, const CalibrateCommand& command,
+           const std::atomic<bool>& interrupted) {
+  RunCommand run;
+  run.config = set.config;
+  run.dataset = set.dataset.string();
+  run.out = (fs::path(command.out) / set.name).string();
+  run.cache = (fs::path(command.out) / "cache").string();
+  run.set = command.set;
+  run.set.emplace_back("segment_objects.min_confidence=0");
+  if (set.every > 1) run.shard = "1/" + std::to_string(set.every);
+  run.resume = fs::exists(fs::path(run.out) / "effective.yaml");
+  run.quiet = true;
+  return run_command(run, interrupted);
+}
+
+Logistic fit(const Poses& poses) {
+  const auto rows = static_cast<Eigen::Index>(poses.size());
+  Eigen::MatrixXd clues(rows, Eigen::Index(kClueCount));
+  Eigen::VectorXd right(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const JudgedPose& pose = poses[static_cast<std::size_t>(i)];
+    clues.row(i) = Eigen::Map<const Eigen::RowVectorXd>(pose.clues.data(), kClueCount);
+    right[i] = pose.right;
+  }
+  return fit_logistic(clues, right, Eigen::VectorXd::Ones(rows));
+}
+
+/// What the poses of every fifth image are given by weights from the others.
+std::vector<Verdict> cross_validated(const Poses& poses) {
+  std::map<std::pair<int, int>, std::size_t> images;
+  for (const JudgedPose& pose : poses) images.try_emplace(pose.image, images.size());
+  std::vector<Verdict> verdicts;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    Poses others, these;
+    for (const JudgedPose& pose : poses)
+      (images[pose.image] % kFolds == fold ? these : others).push_back(pose);
+    if (these.empty() || others.empty()) continue;
+    const Logistic fitted = fit(others);
+    for (const JudgedPose& pose : these)
+      verdicts.push_back(
+          {fitted.probability(Eigen::Map<const Eigen::VectorXd>(pose.clues.data(), kClueCount)),
+           pose.right});
+  }
+  return verdicts;
+}
+
+void print(const std::vector<Verdict>& verdicts) {
+  int right = 0, believed = 0, both = 0;
+  for (const Verdict& verdict : verdicts) {
+    right += verdict.correct;
+    believed += verdict.score >= 0.5;
+    both += verdict.correct && verdict.score >= 0.5;
+  }
+  const auto calibration = calibrate(verdicts);
+  std::printf(
+      "%zu poses, %d right; of images that the weights have not seen, at 0.5: %d believed, "
+      "%d of them right; expected calibration error %.3f\n",
+      verdicts.size(), right, believed, both, calibration ? calibration->error : 0);
+}
+
+std::string to_yaml(const Logistic& fitted) {
+  char line[64];
+  std::snprintf(line, sizeof line, "  confidence_offset: %.4g\n", fitted.offset);
+  std::string text = std::string("segment_objects:\n") + line;
+  for (std::size_t i = 0; i < kClueCount; ++i) {
+    std::snprintf(line, sizeof line, "  confidence_%s: %.4g\n", kClueNames[i],
+                  fitted.weights[Eigen::Index(i)]);
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace
+
+int calibrate_command(const CalibrateCommand& command, const std::atomic<bool>& interrupted) {
+  Poses all;
+  int scene_offset = 0;  // images of different sets are different ones
+  for (const std::string& text : command.sets) {
+    const TestSet set = find_set(text, command.every, false, command.out);
+    if (const int status = run_on(set, command, interrupted); status != 0) return status;
+    for (JudgedPose pose :
+         judge_poses(fs::path(command.out) / set.name, set.dataset, command.rule)) {
+      pose.image.first += scene_offset;
+      all.push_back(pose);
+    }
+    scene_offset += 1 << 20;
+  }
+  if (all.empty()) throw std::invalid_argument("nothing was found; expected poses to judge");
+  print(cross_validated(all));
+  const std::string yaml = to_yaml(fit(all));
+  const fs::path file = fs::path(command.out) / "confidence.yaml";
+  write_text(file, yaml);
+  std::printf("%swrote %s\n", yaml.c_str(), file.string().c_str());
+  return 0;
+}
+
+}  // namespace posevote
