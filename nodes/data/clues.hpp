@@ -15,14 +15,13 @@ enum Clue : std::size_t {
   kOutline,     ///< log of how much of the model's outline the scan's meets
   kContinuity,  ///< in [0, 1]: share of the outline beyond which the scan does not go on
   kVotes,       ///< log of votes per feature on the pose
-  kResidual,    ///< rmse, as a share of the tolerance
   kExactness,   ///< in [0, 1]: 1 if the residual is what other instances of the scan have
   kSupport,     ///< log of how many model points are supported
   kClueCount
 };
 
 constexpr std::array<const char*, kClueCount> kClueNames{
-    "agreement", "relief", "outline", "continuity", "votes", "residual", "exactness", "support"};
+    "agreement", "relief", "outline", "continuity", "votes", "exactness", "support"};
 
 using Clues = std::array<double, kClueCount>;
 

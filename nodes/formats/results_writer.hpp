@@ -22,7 +22,7 @@ namespace posevote::formats {
 struct FrameReport {
   std::size_t number = 0;
   SceneFile file;
-  double seconds = 0;                    ///< of the machine: of the run's time its share (graph::cost)
+  double seconds = 0;  ///< of the machine: of the run's time its share (graph::cost)
   std::map<std::string, double> stages;  ///< of them, per node
   std::string name;                      ///< of the files that writers make for it
 };

@@ -20,7 +20,7 @@ double bounded_log(double value, double low, double high) {
 }  // namespace
 
 Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per_feature,
-               double tolerance_m, const FitTerms& terms) {
+               const FitTerms& terms) {
   const FitShares shares = shares_of(fit, terms);
   Clues clues{};
   clues[kAgreement] = bounded_log(shares.agreement / (1.02 - shares.agreement), 0.1, 50);
@@ -28,7 +28,6 @@ Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per
   clues[kOutline] = bounded_log(3 * shares.outline + 0.02, 0.02, 1.5);
   clues[kContinuity] = shares.continuity;
   clues[kVotes] = bounded_log(votes_per_feature.value_or(kUsualVotesPerFeature), 0.002, 3);
-  clues[kResidual] = tolerance_m > 0 ? fit.rmse / tolerance_m : 0;
   clues[kExactness] = exactness;
   clues[kSupport] = bounded_log(static_cast<double>(fit.supported) * fit.stands_for, 30, 20000);
   return clues;
@@ -48,8 +47,7 @@ void believe(const Sought& sought, Candidate& candidate) {
     votes = votes_per_feature(sought, candidate);
     candidate.consensus = consensus(*votes, sought.terms.score);
   }
-  candidate.clues = clues_of(candidate.fit, exactness(sought, candidate), votes,
-                             static_cast<double>(sought.params.tolerance), sought.terms.fit);
+  candidate.clues = clues_of(candidate.fit, exactness(sought, candidate), votes, sought.terms.fit);
   candidate.confidence = confidence_of(candidate.clues, sought.terms.confidence);
 }
 

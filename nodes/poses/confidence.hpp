@@ -15,9 +15,10 @@
 namespace posevote::poses {
 
 /// Of a pose of quality > 0. `votes_per_feature`: none where support is not a count of votes (the
-/// rivals'), which is taken as what true poses usually have.
+/// rivals'), which is taken as what true poses usually have. How large the residual is says less of
+/// the pose than of the sensor; `exactness` compares it with that of the scan's other instances.
 Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per_feature,
-               double tolerance_m, const FitTerms& terms = {});
+               const FitTerms& terms = {});
 
 /// In [0, 1]: 1 / (1 + exp(-(offset + weights . clues))).
 double confidence_of(const Clues& clues, const ConfidenceTerms& terms);

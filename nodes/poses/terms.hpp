@@ -50,9 +50,9 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as `posevote calibrate`
 /// found them on configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -28.03;
+  double offset = -27.85;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.134, 0.5115, 1.285, 17.81, 0.5794, -2.294, 5.322, 1.27};
+  Clues weights{1.316, 0.08277, 1.51, 15.53, 0.5768, 3.655, 1.632};
 };
 
 /// How far it is refined (refinement.hpp).

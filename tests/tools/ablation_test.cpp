@@ -94,7 +94,7 @@ TEST_CASE("parameters are switched off, halved and doubled, as far as that may b
   CHECK(changes_of(node, "segment_objects.outline_weight") == "off 0 half 1.5 double 6 ");
   CHECK(changes_of(node, "finalists") == "off 1 half 2 double 8 ");
   CHECK(changes_of(node, "refine") == "off false ");
-  CHECK(changes_of(node, "view_trusted") == "off 0 half 0.45 ");           // 1.8 is out of range
+  CHECK(changes_of(node, "view_trusted") == "off 0 half 0.45 ");  // 1.8 is out of range
   CHECK(changes_of(node, "min_confidence") == "off 0 half 0.25 double 1 ");
   CHECK(changes_of(node, "max_instances").empty());
   CHECK(changes_of(node, "find_outline.outline_weight").empty());

@@ -46,7 +46,8 @@ TEST_CASE("what separates perfectly still has finite weights", "[calibrate]") {
 TEST_CASE("results of another build have no clues", "[calibrate]") {
   const TemporaryFolder folder;
   folder.write("results.json",
-               "{\"frames\": [\n{\"frame\": 0, \"scene_id\": 1, \"im_id\": 2, \"detections\": [{\"obj_id\": 1}]}"
+               "{\"frames\": [\n{\"frame\": 0, \"scene_id\": 1, \"im_id\": 2, \"detections\": "
+               "[{\"obj_id\": 1}]}"
                "\n],\n\"nodes\": []}\n");
   CHECK_THROWS_WITH(judge_poses(folder.path(), folder.path(), "adds"),
                     Catch::Contains("results.json") && Catch::Contains("not of this build"));

@@ -70,7 +70,8 @@ void run(Trial& trial, const Replay& scan, const SceneFile& file) {
   const graph::Value result = scan.rerun(trial.variation.node, instead);
   trial.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const Detection& one : graph::StreamTraits<Detections>::unwrap(result).items)
-    trial.found.push_back({0, file.scene_id, file.im_id, one.obj_id, one.confidence, one.T_scene_model});
+    trial.found.push_back(
+        {0, file.scene_id, file.im_id, one.obj_id, one.confidence, one.T_scene_model});
 }
 
 Outcome judge(const Trial& trial, const layouts::GroundTruth& truth, const std::string& rule) {

@@ -21,7 +21,7 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"confidence_outline", "0"},
                                                  {"confidence_continuity", "0"},
                                                  {"confidence_votes", "0"},
-                                                 {"confidence_residual", "0"},
+
                                                  {"confidence_exactness", "0"},
                                                  {"confidence_support", "0"},
                                                  {"refine", "false"},

@@ -17,13 +17,12 @@ poses::Fit good_fit() {
   fit.facing = fit.supported = 1000;
   fit.ends = 400;
   fit.inlier_fraction = 1;
-  fit.rmse = 5e-4;
   fit.relief = 0.5;
   return fit;
 }
 
 double believed(const poses::Fit& fit, double exactness = 1, double votes = 0.5) {
-  return poses::confidence_of(poses::clues_of(fit, exactness, votes, 4e-3), {});
+  return poses::confidence_of(poses::clues_of(fit, exactness, votes), {});
 }
 
 }  // namespace
@@ -43,9 +42,6 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   fit = good_fit();
   fit.supported = fit.facing = 40, fit.ends = 16;
   CHECK(believed(fit) < usual);
-  fit = good_fit();
-  fit.rmse = 3e-3;
-  CHECK(believed(fit) < usual);
   CHECK(believed(good_fit(), 0.6) < usual);
   CHECK(believed(good_fit(), 1, 0.01) < usual);
 }
@@ -54,8 +50,8 @@ TEST_CASE("a sample of the points makes the same clues", "[poses]") {
   poses::Fit sample = good_fit();
   sample.facing = sample.supported = 100, sample.ends = 40;
   sample.stands_for = 10;
-  const Clues all = poses::clues_of(good_fit(), 1, 0.5, 4e-3);
-  const Clues few = poses::clues_of(sample, 1, 0.5, 4e-3);
+  const Clues all = poses::clues_of(good_fit(), 1, 0.5);
+  const Clues few = poses::clues_of(sample, 1, 0.5);
   for (std::size_t i = 0; i < kClueCount; ++i) CHECK(few[i] == Approx(all[i]));
 }
 

@@ -99,9 +99,10 @@ TEST_CASE("the object that fits best comes first, whatever votes for another", "
   Correspondences for_decoy = match_truly(bumpy_model(1), inputs.features, {kLeft}, 0.1);
   for_decoy.model = decoy;
   add_object(inputs, for_decoy);
-  CHECK(segment(inputs).size() == 1);  // it would be found
+  const Values any = {{"min_confidence", "0"}};
+  CHECK(segment(inputs, any).size() == 1);  // it would be found
   add_object(inputs, match_truly(bumpy_model(1), inputs.features, {kLeft}, 0.8));
-  const std::vector<Detection> found = segment(inputs);
+  const std::vector<Detection> found = segment(inputs, any);
   REQUIRE(found.size() == 1);
   CHECK(found.front().obj_id == 1);
   CHECK(shift_between(found.front().T_scene_model, kLeft.T_scene_model) < 0.1 * kResolution);

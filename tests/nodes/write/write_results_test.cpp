@@ -30,10 +30,12 @@ struct Writer {
 };
 
 graph::FrameContext frame(std::size_t number, const std::filesystem::path& out) {
-  return {
-      number,        "a",
-      out,           0,
-      "scans/a.ply", {{"load_scene", {1e6, 3e6, 0, 15e5}}, {"skipped", {}}, {"match", {2e6, 5e6, 1, 25e5}}}};
+  return {number,
+          "a",
+          out,
+          0,
+          "scans/a.ply",
+          {{"load_scene", {1e6, 3e6, 0, 15e5}}, {"skipped", {}}, {"match", {2e6, 5e6, 1, 25e5}}}};
 }
 
 nlohmann::json json(const std::filesystem::path& file) {
