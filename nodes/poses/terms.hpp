@@ -50,9 +50,9 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as `posevote calibrate`
 /// found them on configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -27.85;
+  double offset = -32.47;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.316, 0.08277, 1.51, 15.53, 0.5768, 3.655, 1.632};
+  Clues weights{0.9585, 0.9961, 1.877, 16.24, 0.6297, 12.14, 1.432};
 };
 
 /// How far it is refined (refinement.hpp).

@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scales at which a scan is prepared: those at which its objects were described, of each object
-// the finest that the sensor can tell. Noise and point spacing are measured from the scan itself
-// (sensor_noise.hpp) and taken at the range of its nearer parts: a depth camera sees its background
-// farther away and more coarsely than what stands before it. Where all octaves of an object are too
-// fine its coarsest is taken. Where the library has but one scale, that is the scan's.
+// the finest that the sensor can tell, and the next coarser one. What a sensor tells is measured
+// from the scan itself, where its surface is near: the points' spacing (geometry/sensor_noise.hpp)
+// and how far noise tilts the normals (geometry/normal_noise.hpp). An object whose octaves are all
+// finer than that is looked for at its coarsest: what is coarser than an eightieth of an object no
+// longer tells it, whatever the sensor. A library with no more octaves than are looked for leaves
+// no choice, and nothing is measured.
 //
 //   scan_octaves: {in: [scan, library], out: [scale, octaves], radii: 2}
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <tuple>
+#include <vector>
 
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
+#include "nodes/descriptors/octaves.hpp"
+#include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/normal_noise.hpp"
 #include "nodes/geometry/sensor_noise.hpp"
 
 namespace posevote::prepare {
@@ -21,39 +29,60 @@ namespace {
 
 struct Params {
   double finest = 0;
-  double spacings = 1.25;
-  double noises = 1.25;
-  double near = 0.1;
+  double spacings = 0.6;
+  double tilt = 3;
+  double near = 0.25;
   int radii = 2;
 };
 
-/// What the sensor resolves [m].
-double finest_resolution(const Scan& scan, const Params& params) {
+constexpr float kWidth = 6;  // x resolution: what a normal sees (estimate_normals.radius: 3)
+constexpr double kDegree = 0.017453292519943295;  // [rad]
+
+/// The points no farther from the sensor than that.
+std::vector<std::uint32_t> near_rows(const Scan& scan, float range) {
+  std::vector<std::uint32_t> rows = geometry::finite_rows(scan.points);
+  std::erase_if(rows, [&](std::uint32_t i) {
+    return (scan.points.row(i).transpose() - scan.view.origin).norm() > range;
+  });
+  return rows;
+}
+
+/// What the sensor resolves [m]; `coarsest` where it does not tell sooner.
+double finest_resolution(const Scan& scan, const Params& params, double coarsest) {
   if (params.finest > 0) return params.finest;
   const geometry::SensorNoise noise = geometry::measure_noise(scan.points, scan.view.origin);
   if (noise.ranges.empty()) return 0;
   const float range = noise.ranges[static_cast<std::size_t>(
       params.near * static_cast<double>(noise.ranges.size() - 1))];
-  return std::max(params.noises * static_cast<double>(noise.noise_at(range)),
-                  params.spacings * static_cast<double>(noise.spacing_at(range)));
+  const std::vector<std::uint32_t> rows = near_rows(scan, range);
+  // From the spacing up, not from the coarsest down: curvature tilts the normals of wide patches.
+  double resolution = params.spacings * static_cast<double>(noise.spacing_at(range));
+  for (; resolution < coarsest; resolution *= std::numbers::sqrt2) {
+    const auto tilt = geometry::normal_noise(scan.points, rows, scan.view.origin,
+                                             kWidth * static_cast<float>(resolution));
+    if (tilt && static_cast<double>(*tilt) <= params.tilt * kDegree) break;
+  }
+  return resolution;
 }
 
-/// The scales at which an object is looked for: its finest that are not too fine, or its coarsest.
-void add_scales_of(const Model& model, double finest, int most, std::set<float>& scales) {
-  int count = 0;
-  for (const Octave& octave : octaves_of(model.features))
-    if (octave.resolution >= finest && count++ < most) scales.insert(octave.resolution);
-  if (count == 0) scales.insert(octaves_of(model.features).back().resolution);
+/// The scales at which an object is looked for: from the finest that is not too fine on.
+void add_scales_of(const Model& model, double finest, std::size_t most, std::set<float>& scales) {
+  const auto octaves = octaves_of(model.features);
+  std::size_t first = 0;
+  while (first + most < octaves.size() && octaves[first].resolution < finest) ++first;
+  for (std::size_t i = first; i < std::min(octaves.size(), first + most); ++i)
+    scales.insert(octaves[i].resolution);
 }
 
 std::tuple<Scale, PerObject<Scale>> scan_octaves(const Scan& scan, const ModelLibrary& library,
                                                  const Params& params) {
   if (library.octaves.empty()) throw std::runtime_error("the model library has no index");
-  const bool has_choice = library.octaves.size() > 1;
+  const bool has_choice = library.octaves.size() > static_cast<std::size_t>(params.radii);
   const double finest =
-      has_choice ? 0.99 * finest_resolution(scan, params) : 0;  // float against double
+      has_choice ? finest_resolution(scan, params, library.octaves.back().resolution) : 0;
   std::set<float> scales;
-  for (const auto& model : library.models) add_scales_of(*model, finest, params.radii, scales);
+  for (const auto& model : library.models)
+    add_scales_of(*model, finest, static_cast<std::size_t>(params.radii), scales);
   PerObject<Scale> octaves;
   for (const float resolution : scales)
     octaves.slots.push_back(std::make_shared<const Scale>(Scale{resolution}));
@@ -73,8 +102,10 @@ const auto registered =
                graph::at_least(0))
         .param("spacings", &Params::spacings, "x spacing",
                "The finest octave is at least this times the points' spacing.", graph::at_least(0))
-        .param("noises", &Params::noises, "x noise",
-               "And this times the noise, a standard deviation.", graph::at_least(0))
+        .param("tilt", &Params::tilt, "deg",
+               "And so coarse that noise tilts its normals by no more than this, a standard "
+               "deviation.",
+               graph::in_range(0, 90))
         .param("radii", &Params::radii, "",
                "Octaves at which each object is looked for, at most: descriptors of so many radii.",
                graph::in_range(1, 8))

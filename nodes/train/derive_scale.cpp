@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The resolutions at which each model is sampled and described: its octaves, each twice the one
-// before. Everything else (normal and descriptor radii, feature spacing, ICP distances) is a
-// multiple of them. Descriptors agree only where models and scans are sampled alike, so a scan is
-// prepared at each resolution that its objects have, once for all that share it.
+// The resolutions at which each model is sampled and described: its octaves, each a half octave
+// (`step`) above the one before. Everything else (normal and descriptor radii, feature spacing, ICP
+// distances) is a multiple of them. Descriptors agree only where models and scans are sampled
+// alike, so a scan is prepared at those octaves that its sensor can tell (prepare/scan_octaves.cpp),
+// once for all objects that share them.
 //
-// By default all objects have one, which follows from their mean size. With `own`, an object's
-// finest follows from its own bounding box, rounded to a grid of half octaves, so that objects of
-// like size share it. With several `octaves`, descriptors see a seventh of the object at the finest
-// and twice as much at each of the next: local ones hold in clutter, wide ones tell flat and large
-// objects; the votes of all count together.
+// By default all objects have the same, which follow from their mean size. Measured over sensors and
+// objects, the finest and the middle one are what suits: finer costs time and tells no more, and
+// coarser loses small objects. The coarsest is there for its wider descriptors, whose votes count
+// together with those of the next finer: local ones hold in clutter, wide ones tell flat and large
+// objects. With `own`, an object's finest follows from its own bounding box, rounded to a grid of
+// half octaves, so that objects of like size share it.
 //
 // Slot k n + i of both outputs is octave k of model i of n; the meshes are the same for all k.
 //
-//   derive_scale: {in: model_meshes, out: [octave_meshes, octaves], fraction: 0.006, octaves: 1}
+//   derive_scale: {in: model_meshes, out: [octave_meshes, octaves], fraction: 0.0085, octaves: 3}
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -30,10 +33,11 @@ namespace {
 
 struct Params {
   double resolution = 0;
-  double fraction = 0.006;
+  double fraction = 0.0085;
   double finest = 0.0005;
   bool own = false;
-  int octaves = 1;
+  int octaves = 3;
+  double step = std::numbers::sqrt2;
 };
 
 constexpr double kGrid = 0.00125;  // [m]; of own resolutions: this times half powers of two
@@ -79,9 +83,9 @@ std::tuple<PerObject<Mesh>, PerObject<Scale>> derive_scale(const PerObject<Mesh>
   PerObject<Scale> scales;
   for (int k = 0; k < params.octaves; ++k)
     for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const auto resolution = static_cast<float>(finest[i] * std::pow(params.step, k));
       all.slots.push_back(meshes.slots[i]);
-      scales.slots.push_back(
-          std::make_shared<const Scale>(Scale{static_cast<float>(std::ldexp(finest[i], k))}));
+      scales.slots.push_back(std::make_shared<const Scale>(Scale{resolution}));
     }
   return {std::move(all), std::move(scales)};
 }
@@ -103,7 +107,10 @@ const auto registered =
         .param("own", &Params::own, "",
                "Whether each model's resolution follows from its own size.")
         .param("octaves", &Params::octaves, "",
-               "Resolutions of each model, each twice the one before.", graph::in_range(1, 8));
+               "Resolutions of each model, each `step` times the one before.",
+               graph::in_range(1, 12))
+        .param("step", &Params::step, "x", "Of an octave over the one before.",
+               graph::in_range(1.1, 4));
 
 }  // namespace
 }  // namespace posevote::train

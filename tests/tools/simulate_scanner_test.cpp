@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "tools/simulate/scanner.hpp"
@@ -43,13 +44,15 @@ TEST_CASE("the points of a scanned ball lie on it, within the noise", "[simulate
       sum += off, squares += off * off;
       ++frontal;
     }
-    const double expected = name == "laser" ? 0.0003
-                            : name == "sweep"
-                                ? 0.0005
-                                : std::hypot(0.001425 * 0.5, 0.00285 * 0.5 / 3.46, 0.001 / 3.46);
+    const std::map<std::string, double> expected{
+        {"laser", 0.0003},
+        {"sweep", 0.0005},
+        {"rgbd", std::hypot(0.001425 * 0.5, 0.00285 * 0.5 / 3.46, 0.001 / 3.46)},
+        {"speckle", std::hypot(0.0014 * 0.5, 0.0002 * 0.5, 0.0007 * 0.5 / 3.46)},
+        {"plain", 0.001}};
     REQUIRE(frontal > 1000);
     CHECK(std::abs(sum / frontal) < 0.0002);
-    CHECK(std::sqrt(squares / frontal) == Approx(expected).epsilon(0.15));
+    CHECK(std::sqrt(squares / frontal) == Approx(expected.at(name)).epsilon(0.15));
   }
 }
 
@@ -120,6 +123,40 @@ TEST_CASE("an RGB-D image has shadows beside edges, holes and steps of disparity
   const auto missing = std::count(with_holes.values.begin(), with_holes.values.end(), 0);
   CHECK(missing > static_cast<std::ptrdiff_t>(2 * sensor.height + 100));
   CHECK(missing < static_cast<std::ptrdiff_t>(2 * sensor.height + 12 * 160));
+}
+
+TEST_CASE("pixels of a speckle camera share their errors with their neighbours", "[simulate]") {
+  Sensor sensor = find_sensor("speckle");
+  sensor.noise_z2 = sensor.disparity_step = 0;
+  sensor.holes = 0;
+  const std::size_t pixels = sensor.width * sensor.height;
+  TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (i % sensor.width >= 320) truth.depth[i] = 1.01;  // no shadow behind so low a step
+  const formats::DepthImage image = take_image(truth, sensor, 3);
+  double squares = 0, beside = 0, apart = 0;
+  for (std::size_t i = 0; i + 300 < pixels; ++i) {
+    if (i % sensor.width >= 300) continue;
+    const auto off = [&](std::size_t k) { return image.values[k] * 0.0001 - 1; };
+    squares += off(i) * off(i);
+    beside += off(i) * off(i + 1);
+    if (i % sensor.width < 300 - 4 * sensor.window) apart += off(i) * off(i + 4 * sensor.window);
+  }
+  const double count = 300.0 * static_cast<double>(sensor.height);
+  CHECK(std::sqrt(squares / count) == Approx(sensor.window_noise_z2).epsilon(0.1));
+  CHECK(beside / squares > 0.9);
+  CHECK(std::abs(apart / squares) < 0.1);
+  // Errors are some millimetres, the step ten: where it lies in each row can be told.
+  double mean = 0, spread = 0;
+  for (std::size_t v = 0; v < sensor.height; ++v) {
+    std::size_t edge = 300;
+    while (image.values[v * sensor.width + edge] < 10050) ++edge;
+    mean += static_cast<double>(edge) / static_cast<double>(sensor.height);
+    spread += std::pow(static_cast<double>(edge) - 320, 2) / static_cast<double>(sensor.height);
+  }
+  CHECK(mean == Approx(320).margin(1.5));
+  CHECK(std::sqrt(spread) > 0.4);
+  CHECK(std::sqrt(spread) < 3);
 }
 
 TEST_CASE("the sweep leaves rows out, unevenly", "[simulate]") {

@@ -23,9 +23,14 @@ struct Sensor {
   double edge_jump = 0;       ///< no return just behind an edge that stands out more; 0: none [m]
   int holes = 0;              ///< patches without return
   bool uneven = false;        ///< rows are left out, more in some parts than in others
+  /// Pixels match windows of about that half-width, and share the error of it: it does not average
+  /// out over a neighbourhood, and edges run where the windows have them. 0: none [pixels]
+  std::size_t window = 0;
+  double window_noise_z2 = 0;  ///< deviation of the shared error over depth^2 [1/m]
+  double window_shift = 0;     ///< and of where a pixel looks [pixels]
 };
 
-/// Names of sensors: "laser", "sweep", "rgbd", "plain".
+/// Names of sensors: "laser", "sweep", "rgbd", "speckle", "plain".
 const std::vector<std::string>& sensor_names();
 /// Throws std::invalid_argument for an unknown name.
 Sensor find_sensor(const std::string& name);

@@ -3,6 +3,8 @@
 #include <random>
 
 #include "nodes/data/model.hpp"
+#include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/normal_noise.hpp"
 #include "nodes/geometry/sensor_noise.hpp"
 #include "tests/support/run_node.hpp"
 
@@ -20,6 +22,15 @@ Scan wall(float range, float spacing, float noise) {
   for (int i = 0; i < kSide * kSide; ++i)
     scan.points.row(i) << spacing * static_cast<float>(i % kSide - kSide / 2),
         spacing * static_cast<float>(i / kSide - kSide / 2), range + off(random);
+  return scan;
+}
+
+/// The same with noise that neighbours within some centimetres share: waves of that height.
+Scan wavy(float spacing, float height) {
+  Scan scan = wall(1, spacing, 0);
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i)
+    scan.points(i, 2) +=
+        height * std::sin(300 * scan.points(i, 0)) * std::sin(300 * scan.points(i, 1));
   return scan;
 }
 
@@ -60,23 +71,50 @@ TEST_CASE("noise and spacing are measured from the scan", "[prepare]") {
   CHECK(geometry::measure_noise(PointMatrix::Ones(9, 3), Eigen::Vector3f::Zero()).ranges.empty());
 }
 
+TEST_CASE("how far noise tilts normals is measured over patches", "[prepare]") {
+  // n points strewn over a square of edge w with noise s tilt its plane by sqrt(12 / n) s / w.
+  const Scan scan = wall(1, 0.001F, 0.0002F);
+  const auto rows = geometry::finite_rows(scan.points);
+  const auto tilt = [&](float width) {
+    return geometry::normal_noise(scan.points, rows, Eigen::Vector3f::Zero(), width);
+  };
+  CHECK(tilt(0.005F).value() == Approx(std::sqrt(12.0 / 25) * 0.04).epsilon(0.15));
+  CHECK(tilt(0.01F).value() == Approx(std::sqrt(12.0 / 100) * 0.02).epsilon(0.2));
+  CHECK_FALSE(tilt(0.05F));   // hardly a patch has neighbours
+  CHECK_FALSE(tilt(0.002F));  // four points make no patch
+  CHECK_FALSE(geometry::normal_noise(scan.points, {}, Eigen::Vector3f::Zero(), 0.01F));
+}
+
 TEST_CASE("a scan has the finest octaves of each object that its sensor can tell", "[prepare]") {
   const std::vector<float> fine{0.001F, 0.002F, 0.004F, 0.008F};
-  CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}) == std::vector<float>{0.001F, 0.002F});
-  CHECK(octaves_of_scan(wall(1, 0.0012F, 0), {fine}) == std::vector<float>{0.002F, 0.004F});
-  CHECK(octaves_of_scan(wall(1, 0.0005F, 0.002F), {fine}) == std::vector<float>{0.004F, 0.008F});
+  using Octaves = std::vector<float>;
+  CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}) == Octaves{0.001F, 0.002F});
+  CHECK(octaves_of_scan(wall(1, 0.0025F, 0), {fine}) == Octaves{0.002F, 0.004F});
+  CHECK(octaves_of_scan(wall(1, 0.002F, 0.002F), {fine}) == Octaves{0.004F, 0.008F});
   CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}, {{"radii", "3"}}) ==
-        std::vector<float>{0.001F, 0.002F, 0.004F});
-  CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}, {{"finest", "0.004"}}) ==
-        std::vector<float>{0.004F, 0.008F});
+        Octaves{0.001F, 0.002F, 0.004F});
+  CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}, {{"finest", "0.003"}}) ==
+        Octaves{0.004F, 0.008F});
+  // The coarsest where nothing is good enough.
+  CHECK(octaves_of_scan(wall(1, 0.0005F, 1e-4F), {fine}, {{"tilt", "0"}}) ==
+        Octaves{0.004F, 0.008F});
 }
 
-TEST_CASE("objects share octaves; of one that is too fine the coarsest is taken", "[prepare]") {
-  const Scan scan = wall(1, 0.0005F, 0.002F);
-  CHECK(octaves_of_scan(scan, {{0.001F, 0.002F}, {0.004F, 0.008F}, {0.002F, 0.004F}}) ==
-        std::vector<float>{0.002F, 0.004F, 0.008F});
+TEST_CASE("noise that neighbours share counts, however smooth it is", "[prepare]") {
+  const std::vector<float> fine{0.001F, 0.002F, 0.004F, 0.008F};
+  const Scan scan = wavy(0.0008F, 0.0012F);
+  const auto noise = geometry::measure_noise(scan.points, Eigen::Vector3f::Zero());
+  CHECK(noise.noise_at(1) < 0.0003F);
+  CHECK(octaves_of_scan(scan, {fine}).front() >= 0.002F);
 }
 
-TEST_CASE("one scale needs no measuring", "[prepare]") {
-  CHECK(octaves_of_scan(wall(1, 0.01F, 0.01F), {{0.001F}}) == std::vector<float>{0.001F});
+TEST_CASE("objects share octaves; of one that is too fine the coarsest are taken", "[prepare]") {
+  const Scan scan = wall(1, 0.002F, 0.002F);
+  CHECK(octaves_of_scan(scan, {{0.001F, 0.002F, 0.003F}, {0.003F, 0.004F, 0.008F}}) ==
+        std::vector<float>{0.002F, 0.003F, 0.004F, 0.008F});
+}
+
+TEST_CASE("no choice of octaves needs no measuring", "[prepare]") {
+  CHECK(octaves_of_scan(wall(1, 0.01F, 0.01F), {{0.001F, 0.002F}}) ==
+        std::vector<float>{0.001F, 0.002F});
 }

@@ -28,11 +28,12 @@ Derived derive(const std::vector<Mesh>& models,
   return derived;
 }
 
+/// The finest of all models.
 float derived(const std::vector<Mesh>& models,
               const std::map<std::string, std::string>& params = {}) {
   const std::vector<float> all = derive(models, params).resolutions;
-  REQUIRE(all.size() == models.size());
-  for (const float one : all) CHECK(one == all[0]);
+  REQUIRE(all.size() == 3 * models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) CHECK(all[i] == all[0]);
   return all[0];
 }
 
@@ -41,7 +42,7 @@ float derived(const std::vector<Mesh>& models,
 TEST_CASE("derive_scale is a share of the mean diagonal", "[prepare]") {
   const Mesh small = test::box({5, 0, 0}, 0.1F);
   const Mesh large = test::box({0, 0, 7}, 0.3F);
-  CHECK(derived({small, large}) == Approx(0.006 * 0.2 * std::sqrt(3)));
+  CHECK(derived({small, large}) == Approx(0.0085 * 0.2 * std::sqrt(3)));
   CHECK(derived({large, small}) == derived({small, large}));
   CHECK(derived({small, large}, {{"fraction", "0.01"}}) == Approx(0.01 * 0.2 * std::sqrt(3)));
 }
@@ -49,28 +50,32 @@ TEST_CASE("derive_scale is a share of the mean diagonal", "[prepare]") {
 TEST_CASE("derive_scale is never finer than the finest, unless it is given", "[prepare]") {
   const Mesh tiny = test::box({0, 0, 0}, 0.01F);
   CHECK(derived({tiny}) == Approx(0.0005));
-  CHECK(derived({tiny}, {{"finest", "0"}}) == Approx(0.006 * 0.01 * std::sqrt(3)));
+  CHECK(derived({tiny}, {{"finest", "0"}}) == Approx(0.0085 * 0.01 * std::sqrt(3)));
   CHECK(derived({tiny}, {{"resolution", "0.002"}}) == Approx(0.002));
 }
 
 TEST_CASE("an own scale follows from the object's size, whatever the others", "[prepare]") {
-  const Mesh small = test::box({5, 0, 0}, 0.1F);  // 0.006 x its diagonal: 1.04 mm
-  const Mesh large = test::box({0, 0, 7}, 0.3F);  // 3.12 mm
+  const Mesh small = test::box({5, 0, 0}, 0.1F);  // 0.0085 x its diagonal: 1.47 mm
+  const Mesh large = test::box({0, 0, 7}, 0.3F);  // 4.42 mm
   const auto own = [](const std::vector<Mesh>& models) {
-    return derive(models, {{"own", "true"}}).resolutions;
+    return derive(models, {{"own", "true"}, {"octaves", "1"}}).resolutions;
   };
   CHECK(own({small, large}) == std::vector<float>{own({small})[0], own({large})[0]});
-  CHECK(own({small})[0] == Approx(0.00125 / std::sqrt(2)));
-  CHECK(own({large})[0] == Approx(0.0025 * std::sqrt(2)));
+  CHECK(own({small})[0] == Approx(0.00125));
+  CHECK(own({large})[0] == Approx(0.005));
 }
 
-TEST_CASE("octaves double the resolution, all models at one before the next", "[prepare]") {
+TEST_CASE("octaves grow by steps, all models at one before the next", "[prepare]") {
   const Mesh a = test::box({0, 0, 0}, 0.1F), b = test::box({1, 0, 0}, 0.2F);
-  const Derived all = derive({a, b}, {{"octaves", "3"}, {"resolution", "0.001"}});
+  const Derived all = derive({a, b}, {{"octaves", "3"}, {"step", "2"}, {"resolution", "0.001"}});
   CHECK(all.resolutions == std::vector<float>{0.001F, 0.001F, 0.002F, 0.002F, 0.004F, 0.004F});
   REQUIRE(all.meshes.size() == 6);
   CHECK(all.meshes[4].points == a.points);
   CHECK(all.meshes[5].points == b.points);
+  const std::vector<float> half = derive({a}, {{"resolution", "0.001"}}).resolutions;
+  REQUIRE(half.size() == 3);
+  CHECK(half[1] == Approx(0.001 * std::sqrt(2)));
+  CHECK(half[2] == Approx(0.002));
 }
 
 TEST_CASE("derive_scale refuses models that have no size", "[prepare]") {

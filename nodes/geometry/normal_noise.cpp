@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/normal_noise.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "nodes/geometry/voxels.hpp"
+
+namespace posevote::geometry {
+namespace {
+
+using Cell = std::array<int, 3>;
+using Normals = std::map<Cell, Eigen::Vector3f>;
+
+constexpr std::size_t kFewestPoints = 8;  // of a cube
+constexpr std::size_t kFewestTilts = 20;
+// A surface that fills its cube from edge to edge spreads by width / sqrt(12) either way.
+constexpr double kFilled = 0.5 / 12;  // x width squared
+// Tilts about two axes of standard deviation s have their lower quartile at s sqrt(2 ln(4 / 3));
+// one normal against the mean of two others varies 1.5 times as much as one alone.
+const float kQuartile = std::sqrt(2 * std::log(4.0F / 3)) * std::sqrt(1.5F);
+
+/// The unit normal, towards the viewpoint, of points that fill their cube.
+std::optional<Eigen::Vector3f> normal_of(const PointMatrix& points,
+                                         std::span<const std::uint32_t> members,
+                                         const Eigen::Vector3d& mean,
+                                         const Eigen::Vector3f& viewpoint, double width) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t i : members) {
+    const Eigen::Vector3d off = points.row(i).transpose().cast<double>() - mean;
+    spread += off * off.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread /
+                                                            static_cast<double>(members.size()));
+  if (!(axes.eigenvalues()(1) > kFilled * width * width)) return std::nullopt;
+  const Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
+  return normal.dot(mean.cast<float>() - viewpoint) > 0 ? -normal : normal;
+}
+
+Normals normals_of_cubes(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+                         const Eigen::Vector3f& viewpoint, float width) {
+  Eigen::RowVector3f low = points.row(rows.front());
+  for (const std::uint32_t i : rows) low = low.cwiseMin(points.row(i));
+  const Voxels voxels = group_by_voxel(points, rows, width);
+  Normals normals;
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    const auto members = voxels[v];
+    if (members.size() < kFewestPoints) continue;
+    const Eigen::Vector3d mean = voxels.centroid(points, v).transpose();
+    const auto normal = normal_of(points, members, mean, viewpoint, static_cast<double>(width));
+    const Eigen::Vector3i cell =
+        ((mean.cast<float>() - low.transpose()) / width).array().floor().cast<int>();
+    if (normal) normals[{cell.x(), cell.y(), cell.z()}] = *normal;
+  }
+  return normals;
+}
+
+std::vector<float> tilts_of(const Normals& normals) {
+  std::vector<float> tilts;
+  for (const auto& [cell, normal] : normals)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Cell before = cell, after = cell;
+      --before[axis];
+      ++after[axis];
+      const auto one = normals.find(before), other = normals.find(after);
+      if (one == normals.end() || other == normals.end()) continue;
+      const float along = normal.dot((one->second + other->second).normalized());
+      tilts.push_back(std::acos(std::clamp(along, -1.0F, 1.0F)));
+    }
+  return tilts;
+}
+
+}  // namespace
+
+std::optional<float> normal_noise(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
+                                  const Eigen::Vector3f& viewpoint, float width) {
+  if (rows.empty()) return std::nullopt;
+  std::vector<float> tilts = tilts_of(normals_of_cubes(points, rows, viewpoint, width));
+  if (tilts.size() < kFewestTilts) return std::nullopt;
+  const auto quarter = tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 4);
+  std::nth_element(tilts.begin(), quarter, tilts.end());
+  return *quarter / kQuartile;
+}
+
+}  // namespace posevote::geometry
