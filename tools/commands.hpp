@@ -18,7 +18,7 @@ namespace posevote {
 
 /// Options of `run`, named as on the command line.
 struct RunCommand {
-  std::string config, pipeline;
+  std::string config = "default", pipeline;
   std::vector<std::string> models, scenes, set;
   std::string dataset, split = "test";
   std::string model_unit, scene_unit, sensor_pose;  ///< empty: as the config says
@@ -33,7 +33,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
 
 /// Options of `train`.
 struct TrainCommand {
-  std::string config;
+  std::string config = "default";
   std::vector<std::string> models, set;
   std::string out, on_error = "skip";
   std::string model_unit;  ///< empty: as the config says

@@ -30,6 +30,27 @@ const std::vector<std::string>& length_units() {
   return names;
 }
 
+const std::vector<std::string>& units_or_auto() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = length_units();
+    all.insert(all.begin(), "auto");
+    return all;
+  }();
+  return names;
+}
+
+LikelyUnit likely_unit(double size, double least_mm) {
+  constexpr double kClear = 3;
+  LikelyUnit likely{size < least_mm ? "m" : "mm", ""};
+  if (size > least_mm / kClear && size < least_mm * kClear) {
+    char text[96];
+    std::snprintf(text, sizeof text, "nobody says its unit, and %.4g could be mm or m: read as %s",
+                  size, likely.unit.c_str());
+    likely.doubt = text;
+  }
+  return likely;
+}
+
 double metres_per(const std::string& unit) {
   for (const Unit& known : kUnits)
     if (unit == known.name) return known.metres;

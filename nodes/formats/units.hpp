@@ -11,6 +11,17 @@ namespace posevote::formats {
 /// "mm", "cm", "m" and "in".
 const std::vector<std::string>& length_units();
 
+/// "auto" and these.
+const std::vector<std::string>& units_or_auto();
+
+/// The unit that lengths are likely in of which the largest is `size` in the file's own: millimetres
+/// from `least_mm` up, else metres. `doubt`: words for the user where it is within three times of
+/// that either way, else "".
+struct LikelyUnit {
+  std::string unit, doubt;
+};
+LikelyUnit likely_unit(double size, double least_mm);
+
 /// Metres per one of length_units(). Throws std::invalid_argument for any other.
 double metres_per(const std::string& unit);
 

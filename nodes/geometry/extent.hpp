@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "nodes/data/cloud.hpp"
 
@@ -21,6 +23,25 @@ inline double model_diagonal(const PointMatrix& points) {
     throw std::runtime_error("has " + std::to_string(points.rows()) +
                              " points and no extent: expected a surface");
   return diagonal;
+}
+
+/// Extent along one axis without a share of the points at either end [m].
+inline double robust_extent(const PointMatrix& points, Eigen::Index axis, double outliers) {
+  std::vector<float> values(points.col(axis).begin(), points.col(axis).end());
+  const auto out = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
+  const auto nth = [&values](std::ptrdiff_t n) {
+    std::nth_element(values.begin(), values.begin() + n, values.end());
+    return static_cast<double>(values[static_cast<std::size_t>(n)]);
+  };
+  return nth(std::ssize(values) - 1 - out) - nth(out);
+}
+
+/// The same of the bounding box's diagonal. Of at least one point.
+inline double robust_diagonal(const PointMatrix& points, double outliers) {
+  const Eigen::Vector3d extent(robust_extent(points, 0, outliers),
+                               robust_extent(points, 1, outliers),
+                               robust_extent(points, 2, outliers));
+  return extent.norm();
 }
 
 }  // namespace posevote::geometry

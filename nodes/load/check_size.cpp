@@ -24,6 +24,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/formats/units.hpp"
+#include "nodes/geometry/extent.hpp"
 
 namespace posevote::load {
 namespace {
@@ -36,24 +37,6 @@ struct Params {
 
 std::string check(const Params& params) {
   return params.smallest < params.largest ? "" : "smallest must be less than largest";
-}
-
-/// Extent along one axis without a share of the points at either end [m].
-double robust_extent(const PointMatrix& points, Eigen::Index axis, double outliers) {
-  std::vector<float> values(points.col(axis).begin(), points.col(axis).end());
-  const auto out = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
-  const auto nth = [&values](std::ptrdiff_t n) {
-    std::nth_element(values.begin(), values.begin() + n, values.end());
-    return static_cast<double>(values[static_cast<std::size_t>(n)]);
-  };
-  return nth(std::ssize(values) - 1 - out) - nth(out);
-}
-
-double robust_diagonal(const PointMatrix& points, double outliers) {
-  const Eigen::Vector3d extent(robust_extent(points, 0, outliers),
-                               robust_extent(points, 1, outliers),
-                               robust_extent(points, 2, outliers));
-  return extent.norm();
 }
 
 /// Whether cubes of that edge [m] that hold any point hold fewer than two on average: the points are
@@ -115,7 +98,7 @@ ScanPointer check_size(const ScanPointer& scan, const ModelLibrary& library, con
   if (scan->points.rows() == 0) throw std::runtime_error("the scan has no points");
   if (library.models.empty()) throw std::runtime_error("the model library is empty");
   const Sizes models = sizes_of(library);
-  const double size = robust_diagonal(scan->points, params.outliers);
+  const double size = geometry::robust_diagonal(scan->points, params.outliers);
   const bool fits =
       size >= params.smallest * models.smallest && size <= params.largest * models.largest;
   const bool sparse = size > models.largest && is_sparse(scan->points, models.largest);

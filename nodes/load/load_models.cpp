@@ -5,6 +5,7 @@
 // read.
 //
 //   load_models: {in: model_files, out: model_meshes, unit: mm}
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -35,16 +36,33 @@ Mesh load_model(const std::filesystem::path& file, const graph::FrameContext& co
   return model;
 }
 
+/// The unit in which the largest of the files is an object of likely size.
+std::string likely_unit(const ModelFiles& files, const graph::FrameContext& context) {
+  constexpr double kLeastInMillimetres = 10;  // the largest things in m, the smallest in mm
+  std::vector<double> sizes(files.size());
+  graph::parallel_for(files.size(), 1, [&](std::size_t i) {
+    try {
+      sizes[i] = geometry::model_diagonal(formats::read_mesh(files[i].path, 1).points);
+    } catch (const std::exception&) {  // is told below, with the others
+    }
+  });
+  const double largest = *std::max_element(sizes.begin(), sizes.end());
+  const formats::LikelyUnit likely = formats::likely_unit(largest, kLeastInMillimetres);
+  if (!likely.doubt.empty())
+    context.warn("the largest model: " + likely.doubt + "; say --model-unit (load_models.unit)");
+  return likely.unit;
+}
+
 PerObject<Mesh> load_models(const ModelFiles& files, const graph::FrameContext& context,
                             const Params& params) {
   if (files.empty()) throw std::runtime_error("there are no models to load");
+  const std::string unit = params.unit == "auto" ? likely_unit(files, context) : params.unit;
   PerObject<Mesh> models;
   models.slots.resize(files.size());
   std::vector<std::string> problems(files.size());
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
-      models.slots[i] =
-          std::make_shared<const Mesh>(load_model(files[i].path, context, params.unit));
+      models.slots[i] = std::make_shared<const Mesh>(load_model(files[i].path, context, unit));
     } catch (const std::exception& error) {
       problems[i] = error.what();
     }
@@ -64,8 +82,9 @@ const auto registered =
     graph::register_node("load_models", load_models, "Loads all models, as meshes or raw clouds.")
         .input("model_files")
         .output("model_meshes")
-        .param("unit", &Params::unit, "", "Unit of length in model files.",
-               graph::one_of(formats::length_units()));
+        .param("unit", &Params::unit, "",
+               "Unit of length in model files; auto: m or mm, by their size.",
+               graph::one_of(formats::units_or_auto()));
 
 }  // namespace
 }  // namespace posevote::load

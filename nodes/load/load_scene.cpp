@@ -33,6 +33,7 @@
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/sensor_pose.hpp"
 #include "nodes/formats/units.hpp"
+#include "nodes/geometry/extent.hpp"
 #include "nodes/geometry/viewpoint.hpp"
 #include "nodes/load/read_depth.hpp"
 
@@ -127,9 +128,23 @@ std::string check_viewpoint(Scan& scan, bool is_said) {
          "did by --sensor-pose (--sensor-pose '0 0 0' if there)";
 }
 
+/// The unit in which the scan is of a size that scans have.
+std::string likely_unit(const std::filesystem::path& file, const graph::FrameContext& context) {
+  constexpr double kLeastInMillimetres = 30;  // the largest scenes in m, the smallest in mm
+  constexpr double kOutliers = 0.02;
+  const Scan scan = formats::read_scan(file, 1);
+  if (scan.points.rows() == 0) return "m";  // refused later
+  const formats::LikelyUnit likely =
+      formats::likely_unit(geometry::robust_diagonal(scan.points, kOutliers), kLeastInMillimetres);
+  if (!likely.doubt.empty())
+    context.warn("the scan: " + likely.doubt + "; say --scene-unit (load_scene.unit)");
+  return likely.unit;
+}
+
 Scan load_points(const std::filesystem::path& file, const graph::FrameContext& context,
                  const Params& params) {
-  const double metres = formats::metres_per(params.unit);
+  const double metres =
+      formats::metres_per(params.unit == "auto" ? likely_unit(file, context) : params.unit);
   const std::optional<Eigen::Vector3d> viewpoint = said_viewpoint(file, params);
   Scan scan = formats::read_scan(file, metres);
   if (viewpoint) scan.view.origin = (*viewpoint * metres).cast<float>();
@@ -155,8 +170,9 @@ const auto registered =
     graph::register_node("load_scene", load_scene, "Loads a scan: point file or depth image.")
         .input("scene_file")
         .output("raw_scan")
-        .param("unit", &Params::unit, "", "Unit of length in point files.",
-               graph::one_of(formats::length_units()))
+        .param("unit", &Params::unit, "",
+               "Unit of length in point files; auto: m or mm, by their size.",
+               graph::one_of(formats::units_or_auto()))
         .param("sensor_pose", &Params::sensor_pose, "",
                "Where the sensor stood in the frame of a point file, in the file's unit: x y z; or "
                "x y z qx qy qz qw; or a 4 x 4 matrix row by row. Empty: NAME.pose beside the scan, "

@@ -133,3 +133,27 @@ TEST_CASE("Ctrl-C ends with what is done written", "[run]") {
   const std::string rows = read_text(out / "results.csv");
   CHECK(rows.back() == '\n');
 }
+
+TEST_CASE("without a config: units by size, instances unasked", "[run]") {
+  const auto run = [](const std::string& out, const std::string& models, const std::string& more) {
+    return run_posevote(world().folder, "run --models " + models + " --out " +
+                                            (world().folder / out).string() + " " + more);
+  };
+  // Models in mm, as the simulator writes them, and scans in m.
+  const CommandResult plain = run("plain", world().models.string(), world().scans_argument());
+  INFO(plain.output);
+  REQUIRE(plain.status == 0);
+  CHECK_THAT(plain.output, !Catch::Contains("warning"));
+  // The same said.
+  const CommandResult said = run("said", world().models.string(),
+                                 world().scans_argument() + " --model-unit mm --scene-unit m");
+  REQUIRE(said.status == 0);
+  CHECK(csv("plain") == csv("said"));
+  const std::size_t found = frames("plain")[0]["detections"].size();
+  CHECK(found == 2);
+  // A thing of 4.2 "units" might be either.
+  const std::string odd = world().folder.write(
+      "odd.off", "OFF\n4 4 0\n0 0 0\n3 0 0\n0 3 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  CHECK_THAT(run("odd", odd, world().scans_argument()).output,
+             Catch::Contains("4.359 could be mm or m: read as m; say --model-unit"));
+}

@@ -22,12 +22,13 @@ void add_frames(CLI::App& app, RunCommand& command) {
 
 void add_options(CLI::App& app, RunCommand& command) {
   app.footer(
-      "Example:\n  posevote run uwa --models models/*.ply --scenes scans/ --out out/today\n\n"
+      "Examples:\n  posevote run --models part.stl --scenes scans/ --out out/today\n"
+      "  posevote run bop --dataset DIR\n\n"
       "Writes results.csv (BOP format), results.json, failures.json, effective.yaml and "
       "trace.json\n"
       "to --out. Exit status: 0 all frames answered, 1 some failed, 2 nothing ran, 130 Ctrl-C.");
   app.add_option("config", command.config, "A file, or a name from configs/ (demo, uwa, bop ...)")
-      ->required();
+      ->capture_default_str();
   app.add_option("--models", command.models, "Model files, folders or globs")->type_name("FILE");
   app.add_option("--scenes", command.scenes, "Scan files, folders or globs")->type_name("FILE");
   app.add_option("--dataset", command.dataset,

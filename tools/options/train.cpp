@@ -6,7 +6,8 @@ namespace posevote {
 namespace {
 
 void add_options(CLI::App& app, TrainCommand& command) {
-  app.add_option("config", command.config, "The config that the runs will use")->required();
+  app.add_option("config", command.config, "The config that the runs will use")
+      ->capture_default_str();
   app.add_option("--models", command.models, "Model files, folders or globs")
       ->required()
       ->type_name("FILE");

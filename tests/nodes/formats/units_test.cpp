@@ -40,3 +40,15 @@ TEST_CASE("models of sizes that no object has", "[formats]") {
   CHECK_THAT(formats::odd_model_size(0.00025, "mm"), test::has("is it in m? Say --model-unit m "));
   CHECK_THAT(formats::odd_model_size(1e6, "m"), test::has("check --model-unit"));
 }
+
+TEST_CASE("the unit that a file is likely in", "[formats]") {
+  const auto unit = [](double size) { return formats::likely_unit(size, 10).unit; };
+  CHECK(unit(0.2) == "m");
+  CHECK(unit(9.9) == "m");
+  CHECK(unit(10) == "mm");
+  CHECK(unit(300) == "mm");
+  for (const double clear : {0.2, 3.0, 30.0, 300.0})
+    CHECK(formats::likely_unit(clear, 10).doubt == "");
+  CHECK_THAT(formats::likely_unit(4, 10).doubt, test::has("4 could be mm or m: read as m"));
+  CHECK_THAT(formats::likely_unit(29, 10).doubt, test::has("29 could be mm or m: read as mm"));
+}

@@ -84,7 +84,8 @@ TEST_CASE("a pose that is proposed roughly is told from wrong ones that fit bett
   rough.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 0.5).normalized()));
   rough.translation().x() += 0.01;
   proposed.items.push_back(beside({1, rough}, 0, 10));
-  const auto found = segmented(proposed, scan, {{"min_score", "0.05"}, {"min_confidence", "0"}});
+  const auto found = segmented(
+      proposed, scan, {{"max_instances", "1"}, {"min_score", "0.05"}, {"min_confidence", "0"}});
   REQUIRE(found.size() == 1);
   CHECK(shift(found[0], kLeft) < 0.002);
   CHECK(found[0].score > 0.5);
