@@ -10,6 +10,7 @@
 //   scan_octaves: {in: [scan, library], out: [scale, octaves], radii: 2}
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -47,21 +48,48 @@ std::vector<std::uint32_t> near_rows(const Scan& scan, float range) {
   return rows;
 }
 
-/// What the sensor resolves [m]; `coarsest` where it does not tell sooner.
-double finest_resolution(const Scan& scan, const Params& params, double coarsest) {
+/// Says what is too coarse or too noisy for the objects, whose coarsest octave that is [m].
+void warn_of(const graph::FrameContext& context, double spacing, double tilt, double coarsest,
+             const Params& params) {
+  constexpr double kHopeless = 4;  // x tilt
+  char text[160] = "";
+  if (params.spacings * spacing > coarsest)
+    std::snprintf(text, sizeof text,
+                  "the scan's points are %.2g mm apart, too far to tell objects that are described "
+                  "at %.2g mm",
+                  1000 * spacing, 1000 * coarsest);
+  else if (tilt > kHopeless * params.tilt * kDegree)
+    std::snprintf(text, sizeof text,
+                  "noise tilts the scan's normals by %.0f deg over %.2g mm, too much to tell "
+                  "objects of this size",
+                  tilt / kDegree, 1000 * coarsest * static_cast<double>(kWidth));
+  if (text[0] != '\0') context.warn(text);
+}
+
+/// What the sensor resolves [m]; more than `coarsest` where it does not tell sooner. `octaves`:
+/// those of the objects, ascending.
+double finest_resolution(const Scan& scan, const std::vector<LibraryOctave>& octaves,
+                         const graph::FrameContext& context, const Params& params) {
   if (params.finest > 0) return params.finest;
   const geometry::SensorNoise noise = geometry::measure_noise(scan.points, scan.view.origin);
   if (noise.ranges.empty()) return 0;
   const float range = noise.ranges[static_cast<std::size_t>(
       params.near * static_cast<double>(noise.ranges.size() - 1))];
   const std::vector<std::uint32_t> rows = near_rows(scan, range);
+  const auto spacing = static_cast<double>(noise.spacing_at(range));
+  const auto coarsest = static_cast<double>(octaves.back().resolution);
+  constexpr double kFiner = 0.125;  // of an octave, tells nothing of it
   // From the spacing up, not from the coarsest down: curvature tilts the normals of wide patches.
-  double resolution = params.spacings * static_cast<double>(noise.spacing_at(range));
+  double resolution =
+      std::max(params.spacings * spacing, kFiner * static_cast<double>(octaves.front().resolution));
+  double tilt = 0;
   for (; resolution < coarsest; resolution *= std::numbers::sqrt2) {
-    const auto tilt = geometry::normal_noise(scan.points, rows, scan.view.origin,
-                                             kWidth * static_cast<float>(resolution));
-    if (tilt && static_cast<double>(*tilt) <= params.tilt * kDegree) break;
+    const auto found = geometry::normal_noise(scan.points, rows, scan.view.origin,
+                                              kWidth * static_cast<float>(resolution));
+    if (found) tilt = static_cast<double>(*found);
+    if (found && tilt <= params.tilt * kDegree) return resolution;
   }
+  warn_of(context, spacing, tilt, coarsest, params);
   return resolution;
 }
 
@@ -75,11 +103,11 @@ void add_scales_of(const Model& model, double finest, std::size_t most, std::set
 }
 
 std::tuple<Scale, PerObject<Scale>> scan_octaves(const Scan& scan, const ModelLibrary& library,
+                                                 const graph::FrameContext& context,
                                                  const Params& params) {
   if (library.octaves.empty()) throw std::runtime_error("the model library has no index");
   const bool has_choice = library.octaves.size() > static_cast<std::size_t>(params.radii);
-  const double finest =
-      has_choice ? finest_resolution(scan, params, library.octaves.back().resolution) : 0;
+  const double finest = has_choice ? finest_resolution(scan, library.octaves, context, params) : 0;
   std::set<float> scales;
   for (const auto& model : library.models)
     add_scales_of(*model, finest, static_cast<std::size_t>(params.radii), scales);

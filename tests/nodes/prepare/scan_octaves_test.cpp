@@ -26,11 +26,11 @@ Scan wall(float range, float spacing, float noise) {
 }
 
 /// The same with noise that neighbours within some centimetres share: waves of that height.
-Scan wavy(float spacing, float height) {
+Scan wavy(float spacing, float height, float per_metre = 300) {
   Scan scan = wall(1, spacing, 0);
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i)
     scan.points(i, 2) +=
-        height * std::sin(300 * scan.points(i, 0)) * std::sin(300 * scan.points(i, 1));
+        height * std::sin(per_metre * scan.points(i, 0)) * std::sin(per_metre * scan.points(i, 1));
   return scan;
 }
 
@@ -59,7 +59,31 @@ std::vector<float> octaves_of_scan(const Scan& scan, const std::vector<std::vect
   return found;
 }
 
+/// What is said of the scan, where an object has octaves of 1 to 4 mm.
+std::string warning_of(const Scan& scan) {
+  ModelLibrary library;
+  const std::vector<float> octaves{0.001F, 0.002F, 0.004F};
+  library.models.push_back(object(octaves));
+  for (const float resolution : octaves) library.octaves.push_back({resolution, nullptr, {}});
+  std::string told;
+  graph::FrameContext context;
+  context.on_warning = [&told](const std::string& what) { told += what; };
+  const graph::NodeSpec* spec = graph::find_node("scan_octaves");
+  spec->call({graph::StreamTraits<Scan>::wrap(Scan(scan)),
+              graph::StreamTraits<ModelLibrary>::wrap(std::move(library))},
+             context, spec->make_params().get());
+  return told;
+}
+
 }  // namespace
+
+TEST_CASE("a scan too coarse or too noisy for its objects is said so", "[prepare]") {
+  using Catch::Matchers::Contains;
+  CHECK(warning_of(wall(1, 0.001F, 0.0005F)) == "");
+  CHECK(warning_of(wall(1, 0.004F, 0.0001F)) == "");
+  CHECK_THAT(warning_of(wall(1, 0.009F, 0)), Contains("points are 8.5 mm apart, too far"));
+  CHECK_THAT(warning_of(wavy(0.002F, 0.005F, 130)), Contains("noise tilts the scan's normals by"));
+}
 
 TEST_CASE("noise and spacing are measured from the scan", "[prepare]") {
   const Scan scan = wall(1, 0.002F, 0.001F);
@@ -117,4 +141,11 @@ TEST_CASE("objects share octaves; of one that is too fine the coarsest are taken
 TEST_CASE("no choice of octaves needs no measuring", "[prepare]") {
   CHECK(octaves_of_scan(wall(1, 0.01F, 0.01F), {{0.001F, 0.002F}}) ==
         std::vector<float>{0.001F, 0.002F});
+}
+
+TEST_CASE("a scan of points on a line has octaves, too", "[prepare]") {
+  Scan line;
+  line.points.setZero(3000, 3);
+  for (Eigen::Index i = 0; i < 3000; ++i) line.points.row(i) << 1e-4F * static_cast<float>(i), 0, 1;
+  CHECK(octaves_of_scan(line, {{0.001F, 0.002F, 0.004F}}).size() == 2);
 }
