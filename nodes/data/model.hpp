@@ -36,6 +36,9 @@ struct NearSymmetries {
 namespace descriptors {
 class DescriptorIndex;
 }
+namespace pairs {
+class PairTable;
+}
 
 /// Where a model's surfaces end (find_outline): a bit for each direction around a point.
 struct Outline {
@@ -55,6 +58,7 @@ struct Model {
   float diagonal = 0;           ///< of that bounding box [m]
   NearSymmetries near_symmetries;
   Outline outline;
+  std::shared_ptr<const pairs::PairTable> pairs;  ///< of the finest alone
   /// The same object at its next octaves, ascending; the features are all in the finest.
   std::vector<std::shared_ptr<const Model>> coarser;
 

@@ -18,12 +18,14 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
   const std::size_t per_correspondence = votes.votes_per_correspondence;
   std::vector<std::uint32_t> best;
   if (per_correspondence == 0) return best;
-  for (std::size_t first = 0; first < density.size(); first += per_correspondence) {
+  for (std::size_t first = 0; first < votes.circle_votes(); first += per_correspondence) {
     const auto begin = density.begin() + static_cast<std::ptrdiff_t>(first);
     const auto highest =
         std::max_element(begin, begin + static_cast<std::ptrdiff_t>(per_correspondence));
     if (*highest > 0) best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
   }
+  for (std::size_t v = votes.circle_votes(); v < density.size(); ++v)
+    if (density[v] > 0) best.push_back(static_cast<std::uint32_t>(v));
   std::stable_sort(best.begin(), best.end(), [&density](std::uint32_t a, std::uint32_t b) {
     return density[a] > density[b];
   });

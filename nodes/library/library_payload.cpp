@@ -5,6 +5,7 @@
 
 #include "nodes/descriptors/descriptor_index.hpp"
 #include "nodes/library/check_library.hpp"
+#include "nodes/pairs/pair_table.hpp"
 
 namespace posevote::library {
 namespace {
@@ -49,6 +50,7 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put(model.outline.reach);
   out.put(std::string_view(reinterpret_cast<const char*>(model.outline.ends.data()),
                            model.outline.ends.size()));
+  out.put(model.pairs ? model.pairs->step() : 0.0F);  // made anew when it is read
   out.put(std::uint64_t{model.coarser.size()});
   for (const auto& octave : model.coarser) put_model(out, *octave);
 }
@@ -116,10 +118,12 @@ Model get_model(ByteReader& in, int depth = 0) {
   model.outline.reach = in.get<float>();
   const std::string_view ends = in.get_text();
   model.outline.ends.assign(ends.begin(), ends.end());
+  const auto pair_step = in.get<float>();
   const auto coarser = in.get<std::uint64_t>();
   if (depth > 0 && coarser > 0) throw std::runtime_error("is damaged: an octave has octaves");
   for (std::uint64_t i = 0; i < coarser; ++i)
     model.coarser.push_back(std::make_shared<const Model>(get_model(in, depth + 1)));
+  if (pair_step > 0) model.pairs = pairs::index_pairs(model, pair_step);
   return model;
 }
 

@@ -10,7 +10,7 @@ namespace posevote::segment {
 namespace {
 
 void check_object(const VoteSet& votes, const VoteDensity& density, std::size_t features) {
-  const std::size_t count = votes.scene_feature.size() * votes.votes_per_correspondence;
+  const std::size_t count = votes.size();
   if (!votes.model) throw std::runtime_error("votes without a model");
   const auto fail = [&votes](const std::string& what) {
     throw std::runtime_error("votes of " + votes.model->name + ": " + what);
@@ -23,9 +23,10 @@ void check_object(const VoteSet& votes, const VoteDensity& density, std::size_t 
   if (density.density.size() != count)
     fail(std::to_string(density.density.size()) + " densities, expected " + std::to_string(count));
   if (count > 0 && !density.index) fail("no pose index beside the densities");
-  for (const std::uint32_t feature : votes.scene_feature)
-    if (feature >= features)
-      fail("scene feature " + std::to_string(feature) + " of " + std::to_string(features));
+  for (const auto* column : {&votes.scene_feature, &votes.single_feature})
+    for (const std::uint32_t feature : *column)
+      if (feature >= features)
+        fail("scene feature " + std::to_string(feature) + " of " + std::to_string(features));
 }
 
 }  // namespace
@@ -44,6 +45,12 @@ void remove_explained(LiveVotes& object, const std::vector<char>& explained) {
       object.alive[vote] = 0;
       removed.push_back(vote);
     }
+  }
+  for (std::size_t i = 0; i < object.votes->single_feature.size(); ++i) {
+    const auto vote = static_cast<std::uint32_t>(object.votes->circle_votes() + i);
+    if (!explained[object.votes->single_feature[i]] || !object.alive[vote]) continue;
+    object.alive[vote] = 0;
+    removed.push_back(vote);
   }
   if (!removed.empty()) object.raw->index->subtract(removed, object.alive, object.density);
 }

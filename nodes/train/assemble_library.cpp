@@ -22,11 +22,14 @@
 #include "nodes/data/model.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
 #include "nodes/descriptors/octaves.hpp"
+#include "nodes/pairs/pair_table.hpp"
 
 namespace posevote::train {
 namespace {
 
-using Params = descriptors::IndexOptions;
+struct Params : descriptors::IndexOptions {
+  double pair_step = 0.07;
+};
 
 /// What training made of one model at one octave.
 struct Part {
@@ -54,7 +57,8 @@ Model shape_of(const ModelFile& file, const Mesh& mesh, const Part& part) {
 }
 
 /// `octaves`: ascending.
-Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<Part>& octaves) {
+Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<Part>& octaves,
+                     const Params& params) {
   if (mesh.points.rows() == 0) throw std::runtime_error(file.path.string() + ": has no points");
   Model model = shape_of(file, mesh, octaves.at(0));
   for (std::size_t k = 1; k < octaves.size(); ++k)
@@ -66,6 +70,7 @@ Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<
     scales.push_back(part.scale);
   }
   model.features = descriptors::stack_octaves(features, scales);
+  model.pairs = pairs::index_pairs(model, static_cast<float>(params.pair_step) * model.diagonal);
   return model;
 }
 
@@ -118,7 +123,7 @@ ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& me
       parts.push_back(
           {clouds[slot], features[slot], near_symmetries[slot], outlines[slot], octaves[slot]});
     library.models.push_back(
-        std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts)));
+        std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts, params)));
   }
   require_features(library);  // before they are sorted: by the order of the files
   std::stable_sort(library.models.begin(), library.models.end(),
@@ -139,6 +144,8 @@ const auto registered =
         .input("outlines")
         .input("octaves")
         .output("library")
+        .param("pair_step", &Params::pair_step, "x diagonal",
+               "How far apart the points of cast_pairs are.", graph::in_range(0.02, 0.5))
         .param("search", &Params::search, "",
                "How matching searches: exact and fast, exact by FLANN's k-d tree, or by FLANN's "
                "randomised trees, whose matches differ from run to run.",

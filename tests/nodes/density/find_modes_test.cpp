@@ -12,6 +12,7 @@ namespace {
 VoteSet votes_at(const std::vector<float>& x) {
   VoteSet votes;
   votes.votes_per_correspondence = 2;
+  votes.scene_feature.assign(x.size() / 2, 0);
   votes.tx = x;
   votes.ty.assign(x.size(), 0.0F);
   votes.tz.assign(x.size(), 0.0F);
@@ -28,6 +29,15 @@ TEST_CASE("each correspondence gives its best vote, the densest first", "[densit
   const VoteSet votes = votes_at({0, 1, 2, 3, 4, 5, 6, 7});
   CHECK(density::best_votes(votes, {1, 4, 9, 2, 0, 0, 4, 3}) ==
         std::vector<std::uint32_t>{2, 1, 6});
+}
+
+TEST_CASE("single votes stand for themselves", "[density]") {
+  VoteSet votes = votes_at({0, 1, 2, 3});
+  votes.add_single({4, 0, 0}, Eigen::Quaternionf::Identity(), 7);
+  votes.add_single({5, 0, 0}, Eigen::Quaternionf::Identity(), 7);
+  votes.add_single({6, 0, 0}, Eigen::Quaternionf::Identity(), 8);
+  CHECK(density::best_votes(votes, {1, 4, 9, 2, 5, 5, 0}) ==
+        std::vector<std::uint32_t>{2, 4, 5, 1});
 }
 
 TEST_CASE("a vote is a hypothesis without support", "[density]") {

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "nodes/library/library_payload.hpp"
+#include "nodes/pairs/pair_table.hpp"
 #include "tests/nodes/match/small_library.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -50,7 +51,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{8});
+  out.put(std::uint32_t{9});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -95,6 +96,10 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   CHECK(symmetry.motion.matrix() == library.models[2]->near_symmetries.items[0].motion.matrix());
   CHECK(symmetry.carried_off == std::vector<std::uint32_t>{0, 2});
   CHECK(symmetry.uncovered == std::vector<std::uint32_t>{1});
+  const pairs::PairTable& pairs = *library.models[2]->pairs;
+  REQUIRE(loaded->models[2]->pairs);
+  CHECK(loaded->models[2]->pairs->step() == pairs.step());
+  CHECK(loaded->models[2]->pairs->points().size() == pairs.points().size());
   const DescriptorMatrix queries = features_at({3, 33, 77}).descriptors;
   const auto before = library.octaves[0].index->nearest_two(queries);
   const auto after = loaded->octaves[0].index->nearest_two(queries);
@@ -245,7 +250,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 8"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 9"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

@@ -82,6 +82,24 @@ TEST_CASE("all explained leaves nothing", "[segment]") {
   for (const double density : object.density) CHECK(density == 0);
 }
 
+TEST_CASE("a single vote goes with its feature", "[segment]") {
+  Scene scene = make_scene();
+  const std::size_t circles = scene.votes.circle_votes();
+  for (const std::uint32_t feature : {4U, 5U, 4U})
+    scene.votes.add_single({0, 0, 0.8F}, Eigen::Quaternionf::Identity(), feature);
+  const auto index = std::make_shared<density::PoseIndex>(scene.votes, density::Bandwidth{});
+  scene.density = {index->densities(), index};
+  REQUIRE(scene.density.density.size() == circles + 3);
+  CHECK(scene.density.density[circles] >= 3);
+  segment::LiveVotes object = segment::all_votes(scene.votes, scene.density);
+  std::vector<char> explained(static_cast<std::size_t>(scene.features.points.rows()), 0);
+  explained[4] = 1;
+  segment::remove_explained(object, explained);
+  CHECK(object.density[circles] == 0);
+  CHECK(object.density[circles + 1] == Approx(scene.density.density[circles + 1] - 2));
+  CHECK(object.density[circles + 2] == 0);
+}
+
 TEST_CASE("inputs that do not belong together are refused", "[segment]") {
   const Scene scene = make_scene();
   const auto features = static_cast<std::size_t>(scene.features.points.rows());
@@ -99,6 +117,13 @@ TEST_CASE("inputs that do not belong together are refused", "[segment]") {
   broken = scene.votes;
   broken.scene_feature[3] = 1000000;
   CHECK_THROWS_WITH(check(broken, scene.density), Catch::Contains("scene feature 1000000"));
+  broken = scene.votes;
+  broken.add_single({0, 0, 0}, Eigen::Quaternionf::Identity(), 2000000);
+  broken.scene_feature[3] = 0;
+  VoteDensity one_more = scene.density;
+  one_more.density.push_back(0);
+  const auto check_single = [&] { check(broken, one_more); };
+  CHECK_THROWS_WITH(check_single(), Catch::Contains("scene feature 2000000"));
   broken = scene.votes;
   broken.model = nullptr;
   CHECK_THROWS_AS(check(broken, scene.density), std::runtime_error);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The point pair feature of Drost, Ulrich, Navab, Ilic (CVPR 2010, eq. 1) in bins: how far apart two
+// oriented points are, and the three angles between their normals and the way from one to the other.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace posevote::pairs {
+
+inline constexpr int kAngleBins = 15;  ///< of 12 deg, as Drost et al. have them
+
+/// The bins of angles by their cosines, without an arc cosine for each: cosines that differ by less
+/// than 1/1024 share theirs.
+inline std::uint32_t angle_bin(float cosine) {
+  static const auto bins = [] {
+    std::array<std::uint8_t, 2049> all{};
+    for (int i = 0; i <= 2048; ++i)
+      all[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
+          std::min(std::acos(i / 1024.0 - 1) * kAngleBins / std::numbers::pi, kAngleBins - 1.0));
+    return all;
+  }();
+  return bins[static_cast<std::size_t>(std::clamp((cosine + 1) * 1024, 0.0F, 2048.0F))];
+}
+
+/// The numbers of bins there are for pairs of points up to `reach` apart.
+inline std::uint32_t length_bins(float step, float reach) {
+  return static_cast<std::uint32_t>(reach / step) + 1;
+}
+inline std::uint32_t pair_bins(std::uint32_t lengths) {
+  return lengths * kAngleBins * kAngleBins * kAngleBins;
+}
+
+/// No bin: the two points are less than a step apart, so that their places say nothing, or lie in
+/// one plane. Such pairs are by far the most in scans and in models of anything flat, and fit at any
+/// place of any plane.
+inline constexpr std::uint32_t kNoBin = 0xFFFFFFFF;
+
+/// The bin of the pair from one point with unit normal `from` to another with unit normal `to`,
+/// `offset` away [m]; lengths are told in steps [m].
+inline std::uint32_t pair_bin(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                              const Eigen::Vector3f& offset, float step) {
+  constexpr float kInPlane = 0.15F;     // 9 deg
+  constexpr float kSameNormal = 0.96F;  // 16 deg
+  const float length = offset.norm();
+  if (!(length >= step)) return kNoBin;
+  const float along_from = from.dot(offset) / length;
+  const float along_to = to.dot(offset) / length;
+  const float between = from.dot(to);
+  if (std::abs(along_from) < kInPlane && std::abs(along_to) < kInPlane && between > kSameNormal)
+    return kNoBin;
+  const auto lengths = static_cast<std::uint32_t>(length / step);
+  return ((lengths * kAngleBins + angle_bin(along_from)) * kAngleBins + angle_bin(along_to)) *
+             kAngleBins +
+         angle_bin(between);
+}
+
+}  // namespace posevote::pairs

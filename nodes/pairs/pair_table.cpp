@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/pairs/pair_table.hpp"
+
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "nodes/pairs/pair_key.hpp"
+#include "nodes/pairs/thin_surface.hpp"
+
+namespace posevote::pairs {
+namespace {
+
+constexpr float kMostSteps = 101;  ///< tables grow with it to the fourth power
+
+}  // namespace
+
+PairTable::PairTable(const Cloud& cloud, float step, float reach) : step_(step), reach_(reach) {
+  if (!(step >= reach / kMostSteps) || !(step <= reach))
+    throw std::runtime_error("a step of pairs of " + std::to_string(step) + " m does not fit " +
+                             std::to_string(reach) + " m");
+  const Cloud thin = thin_surface(cloud, step);
+  const Eigen::Index count = thin.points.rows();
+  if (count > std::numeric_limits<std::uint16_t>::max())
+    throw std::runtime_error("pairs of " + std::to_string(count) +
+                             " points are too many: the step of pairs is too small");
+  for (Eigen::Index i = 0; i < count; ++i)
+    points_.emplace_back(thin.points.row(i).transpose(), thin.normals.row(i).transpose());
+  starts_.assign(pair_bins(length_bins(step, reach)) + 1, 0);
+  const auto for_each_pair = [this](const auto& visit) {
+    for (std::size_t a = 0; a < points_.size(); ++a)
+      for (const LocalFrame& b : points_) {
+        const Eigen::Vector3f offset = b.point - points_[a].point;
+        const std::uint32_t bin = pair_bin(points_[a].normal, b.normal, offset, step_);
+        if (bin < starts_.size() - 1) visit(bin, a, offset);
+      }
+  };
+  for_each_pair([this](std::uint32_t bin, std::size_t, const auto&) { ++starts_[bin]; });
+  std::exclusive_scan(starts_.begin(), starts_.end(), starts_.begin(), 0U);
+  ends_.resize(starts_.back());
+  std::vector<std::uint32_t> next = starts_;
+  for_each_pair([&](std::uint32_t bin, std::size_t a, const Eigen::Vector3f& offset) {
+    ends_[next[bin]++] = {static_cast<std::uint16_t>(a), points_[a].turn_to(offset)};
+  });
+}
+
+std::shared_ptr<const PairTable> index_pairs(const Model& model, float step) {
+  const Model& coarsest = model.coarser.empty() ? model : *model.coarser.back();
+  return std::make_shared<const PairTable>(coarsest.cloud, step, model.diagonal);
+}
+
+}  // namespace posevote::pairs

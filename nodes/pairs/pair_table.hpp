@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "nodes/data/model.hpp"
+#include "nodes/pairs/local_frame.hpp"
+
+namespace posevote::pairs {
+
+/// One end of a pair of a model's points, and the turn about it at which the other end lies.
+struct PairEnd {
+  std::uint16_t point = 0;  ///< its number among the table's points
+  std::uint8_t turn = 0;    ///< of LocalFrame
+};
+
+/// All pairs of points of a model, by their pair_bin. Immutable.
+class PairTable {
+ public:
+  /// Of a model's cloud, thinned to one point a step. `reach` [m]: no two of the points
+  /// are farther apart; `step` [m]: from a hundredth of it to all of it. Throws std::runtime_error where the cloud has over 65535 steps of
+  /// surface, or no normals. Time and memory grow with the square of its points: at a step of a
+  /// fifteenth of the size some 400 points and 150 thousand pairs, in 10 ms.
+  PairTable(const Cloud& cloud, float step, float reach);
+
+  float step() const { return step_; }
+  float reach() const { return reach_; }
+  const std::vector<LocalFrame>& points() const { return points_; }
+  std::size_t bins() const { return starts_.size() - 1; }
+  /// The pairs of a bin.
+  std::span<const PairEnd> operator[](std::uint32_t bin) const {
+    return std::span(ends_).subspan(starts_[bin], starts_[bin + 1] - starts_[bin]);
+  }
+
+ private:
+  float step_ = 0, reach_ = 0;
+  std::vector<LocalFrame> points_;
+  std::vector<std::uint32_t> starts_;  ///< per bin, and the end
+  std::vector<PairEnd> ends_;
+};
+
+/// Of the coarsest of a model's octaves: thinned, it is the smoothest. `step` [m].
+std::shared_ptr<const PairTable> index_pairs(const Model& model, float step);
+
+}  // namespace posevote::pairs

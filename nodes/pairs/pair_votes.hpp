@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/geometry/grid.hpp"
+#include "nodes/pairs/pair_table.hpp"
+#include "nodes/pairs/thin_surface.hpp"
+
+namespace posevote::pairs {
+
+/// A scan's surface, thin, to pair its points with.
+class PairScene {
+ public:
+  struct Point {
+    Eigen::Vector3f point, normal;
+  };
+
+  /// `edge`: of thin_surface [m].
+  PairScene(const Cloud& scan, float edge) : PairScene(thin_surface(scan, edge), 4 * edge, 0) {}
+
+  /// Calls visit(point) for each within `reach` [m].
+  template <class Visit>
+  void for_each_within(const Eigen::Vector3f& center, float reach, const Visit& visit) const {
+    grid_.for_each_within(center, reach, [&](std::uint32_t i, float) { visit(points_[i]); });
+  }
+
+ private:
+  PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
+    for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
+      points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
+  }
+
+  geometry::PointGrid grid_;
+  std::vector<Point> points_;  ///< side by side: each is read alone
+};
+
+/// A pose under which many pairs agree: the model's point lies in the scan's, normal on normal, and
+/// the model is turned about it.
+struct PairPeak {
+  std::uint16_t point = 0;  ///< of the PairTable
+  float turn = 0;           ///< [rad]
+  std::uint32_t pairs = 0;  ///< how many agree
+};
+
+/// Counts the pairs that one scan point makes with those around it, by the model's point that it
+/// would be and by the turn (Drost et al., CVPR 2010, section 3.3). Keeps its memory for the next
+/// point.
+class PairVotes {
+ public:
+  /// The `count` best, in descending order, none with less than `ratio` of the best one's pairs.
+  std::vector<PairPeak> peaks(const PairTable& table, const LocalFrame& at, const PairScene& scene,
+                              std::size_t count, double ratio);
+
+ private:
+  static constexpr std::uint32_t kTurns = 32;
+
+  void count_pairs(const PairTable& table, const LocalFrame& at, const PairScene& scene);
+  PairPeak peak_of(std::uint16_t point) const;
+
+  std::vector<std::uint16_t> counts_;   ///< per point of the model and turn
+  std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
+  std::vector<std::uint32_t> touched_;  ///< bins
+};
+
+}  // namespace posevote::pairs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/pairs/pair_table.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "nodes/pairs/pair_key.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace posevote;
+
+namespace {
+
+Cloud ball(int count) {
+  const PointMatrix points = test::sphere(count, 0.05F);
+  return {points, points / 0.05F, {}};
+}
+
+}  // namespace
+
+TEST_CASE("every pair of a model's points is in its bin, from both ends", "[pairs]") {
+  const pairs::PairTable table(ball(60), 0.002F, 0.1F);  // so fine that no two points are one
+  REQUIRE(table.points().size() == 60);
+  std::size_t all = 0;
+  for (std::uint32_t bin = 0; bin < table.bins(); ++bin)
+    for (const pairs::PairEnd end : table[bin]) {
+      ++all;
+      const pairs::LocalFrame& from = table.points()[end.point];
+      bool found = false;
+      for (const pairs::LocalFrame& to : table.points()) {
+        const Eigen::Vector3f offset = to.point - from.point;
+        if (pairs::pair_bin(from.normal, to.normal, offset, 0.002F) == bin &&
+            from.turn_to(offset) == end.turn)
+          found = true;
+      }
+      CHECK(found);
+    }
+  CHECK(all == 60 * 59);
+}
+
+TEST_CASE("a table is of a thinned model", "[pairs]") {
+  const pairs::PairTable table(ball(5000), 0.02F, 0.1F);
+  CHECK(table.points().size() > 60);
+  CHECK(table.points().size() < 250);
+  CHECK(table.step() == 0.02F);
+  CHECK(table.reach() == 0.1F);
+}
+
+TEST_CASE("steps that fit no model are refused", "[pairs]") {
+  for (const float step : {0.0F, 0.0001F, 0.2F, -1.0F, std::numeric_limits<float>::quiet_NaN()})
+    CHECK_THROWS_WITH(pairs::PairTable(ball(60), step, 0.1F), Catch::Contains("step of pairs"));
+  CHECK_THROWS_AS(pairs::PairTable(ball(60), 0.01F, std::numeric_limits<float>::quiet_NaN()),
+                  std::runtime_error);
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/pairs/pair_votes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/bumpy_scene.hpp"
+
+using namespace posevote;
+using namespace posevote::test;
+
+TEST_CASE("a turn is told from u to v", "[pairs]") {
+  const pairs::LocalFrame frame({1, 2, 3}, Eigen::Vector3f(1, 2, -1).normalized());
+  CHECK((frame.u.cross(frame.v) - frame.normal).norm() < 1e-6F);
+  CHECK(frame.axes().determinant() == Approx(1));
+  for (int turn = 0; turn < 256; ++turn) {
+    const float angle = (static_cast<float>(turn) + 0.5F) * static_cast<float>(M_PI) / 128;
+    const Eigen::Vector3f offset =
+        0.03F * (std::cos(angle) * frame.u + std::sin(angle) * frame.v) - 0.01F * frame.normal;
+    CHECK(int{frame.turn_to(offset)} == turn);
+  }
+}
+
+TEST_CASE("the best of a point's poses are told in descending order", "[pairs]") {
+  const auto model = bumpy_model(1);
+  const float step = 0.1F * model->diagonal;
+  const pairs::PairTable table(model->cloud, step, model->diagonal);
+  const pairs::PairScene scene(model->cloud, step);
+  pairs::PairVotes votes;
+  int right = 0;
+  for (std::size_t i = 0; i < table.points().size(); ++i) {
+    const auto peaks = votes.peaks(table, table.points()[i], scene, 4, 0.5);
+    REQUIRE(!peaks.empty());
+    CHECK(peaks.size() <= 4);
+    for (std::size_t k = 1; k < peaks.size(); ++k) {
+      CHECK(peaks[k].pairs <= peaks[k - 1].pairs);
+      CHECK(2 * peaks[k].pairs >= peaks[0].pairs);
+    }
+    const float turn = std::remainder(peaks[0].turn, static_cast<float>(2 * M_PI));
+    right += peaks[0].point == i && std::abs(turn) < 0.2F ? 1 : 0;
+  }
+  CHECK(right > 0.9 * static_cast<double>(table.points().size()));  // the model itself, unmoved
+}
+
+TEST_CASE("what was counted before does not count again", "[pairs]") {
+  const auto model = bumpy_model(1);
+  const float step = 0.1F * model->diagonal;
+  const pairs::PairTable fine(model->cloud, step, model->diagonal);
+  const pairs::PairTable coarse(model->cloud, 2 * step, model->diagonal);
+  const pairs::PairScene scene(model->cloud, step);
+  const auto same = [](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+      return x.point == y.point && x.turn == y.turn && x.pairs == y.pairs;
+    });
+  };
+  pairs::PairVotes used;
+  for (const std::size_t i : {5U, 9U, 13U})
+    for (const pairs::PairTable* table : {&fine, &coarse, &fine}) {
+      const auto again = used.peaks(*table, fine.points()[i], scene, 9, 0);
+      CHECK(same(again, pairs::PairVotes().peaks(*table, fine.points()[i], scene, 9, 0)));
+    }
+}
+
+TEST_CASE("a point with nothing around it has no pose", "[pairs]") {
+  const auto model = bumpy_model(1);
+  const pairs::PairTable table(model->cloud, 0.1F * model->diagonal, model->diagonal);
+  const pairs::PairScene scene(model->cloud, 0.1F * model->diagonal);
+  CHECK(pairs::PairVotes().peaks(table, {{9, 9, 9}, {0, 0, 1}}, scene, 3, 0).empty());
+}
