@@ -18,8 +18,9 @@ int train_command(const TrainCommand& command) {
   for (const auto& model : library->models)
     std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()
               << " points, " << model->features.points.rows() << " features, "
-              << model->near_symmetries.items.size() << " near symmetries, diagonal "
-              << model->diagonal << " m\n";
+              << model->symmetries.turns.size() << " turns, " << model->symmetries.axes.size()
+              << " axes of symmetry, " << model->near_symmetries.items.size()
+              << " near symmetries, diagonal " << model->diagonal << " m\n";
   for (const LibraryOctave& octave : library->octaves)
     std::cout << "octave of " << octave.resolution << " m: " << octave.rows.size() << " models\n";
   std::cout << "wrote " << command.out << "\n";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nodes/data/features.hpp"
+#include "nodes/data/symmetries.hpp"
 
 namespace posevote {
 
@@ -56,6 +57,7 @@ struct Model {
   Eigen::Vector3f center =
       Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
   float diagonal = 0;           ///< of that bounding box [m]
+  Symmetries symmetries;        ///< of the finest alone
   NearSymmetries near_symmetries;
   Outline outline;
   std::shared_ptr<const pairs::PairTable> pairs;  ///< of the finest alone

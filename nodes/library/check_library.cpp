@@ -60,6 +60,14 @@ void require_inside(const PointMatrix& points, const Model& model, const std::st
           what + " lie outside of the bounding box");
 }
 
+void check_symmetries(const Symmetries& symmetries) {
+  const auto is_unit = [](const auto& v) { return std::abs(v.norm() - 1) < 1e-3F; };
+  require(symmetries.fixed_point.allFinite() && !symmetries.turns.empty() &&
+              std::all_of(symmetries.turns.begin(), symmetries.turns.end(), is_unit) &&
+              std::all_of(symmetries.axes.begin(), symmetries.axes.end(), is_unit),
+          "a symmetry is no turn about a point");
+}
+
 void check_model(const Model& model) {
   require_length(model.diagonal, "the diagonal");
   require_length(model.resolution, "the resolution");
@@ -68,6 +76,7 @@ void check_model(const Model& model) {
   check_features(model.features);
   require_inside(model.cloud.points, model, "points");
   require_inside(model.features.points, model, "feature points");
+  check_symmetries(model.symmetries);
   for (const NearSymmetry& one : model.near_symmetries.items) {
     require(one.motion.matrix().allFinite() && one.motion.linear().isUnitary(1e-6),
             "a near symmetry is no motion");

@@ -33,6 +33,14 @@ void put_features(ByteWriter& out, const FeatureSet& features) {
   }
 }
 
+void put_symmetries(ByteWriter& out, const Symmetries& symmetries) {
+  out.put_matrix(symmetries.fixed_point);
+  out.put(std::uint64_t{symmetries.turns.size()});
+  for (const Eigen::Quaternionf& turn : symmetries.turns) out.put_matrix(turn.coeffs());
+  out.put(std::uint64_t{symmetries.axes.size()});
+  for (const Eigen::Vector3f& axis : symmetries.axes) out.put_matrix(axis);
+}
+
 void put_model(ByteWriter& out, const Model& model) {
   out.put(model.name);
   out.put(std::int32_t{model.obj_id});
@@ -41,6 +49,7 @@ void put_model(ByteWriter& out, const Model& model) {
   put_features(out, model.features);
   out.put_matrix(model.center);
   out.put(model.diagonal);
+  put_symmetries(out, model.symmetries);
   out.put(std::uint64_t{model.near_symmetries.items.size()});
   for (const NearSymmetry& one : model.near_symmetries.items) {
     out.put_matrix(Eigen::Matrix4d(one.motion.matrix()));
@@ -73,6 +82,21 @@ Eigen::Isometry3d get_motion(ByteReader& in) {
   if (values.rows() != 4 || values.cols() != 4)
     throw std::runtime_error("is damaged: a motion is not of 4 x 4 numbers");
   return Eigen::Isometry3d(Eigen::Matrix4d(values));
+}
+
+Symmetries get_symmetries(ByteReader& in) {
+  Symmetries symmetries;
+  symmetries.fixed_point = get_vector(in);
+  symmetries.turns.clear();
+  const auto turns = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < turns; ++i) {
+    const auto values = in.get_matrix<Eigen::VectorXf>();
+    if (values.size() != 4) throw std::runtime_error("is damaged: a turn is not of 4 numbers");
+    symmetries.turns.emplace_back(Eigen::Vector4f(values));
+  }
+  const auto axes = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < axes; ++i) symmetries.axes.push_back(get_vector(in));
+  return symmetries;
 }
 
 Cloud get_cloud(ByteReader& in) {
@@ -108,6 +132,7 @@ Model get_model(ByteReader& in, int depth = 0) {
   model.features = get_features(in);
   model.center = get_vector(in);
   model.diagonal = in.get<float>();
+  model.symmetries = get_symmetries(in);
   const auto near_symmetries = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < near_symmetries; ++i) {
     NearSymmetry& one = model.near_symmetries.items.emplace_back();
@@ -123,7 +148,7 @@ Model get_model(ByteReader& in, int depth = 0) {
   if (depth > 0 && coarser > 0) throw std::runtime_error("is damaged: an octave has octaves");
   for (std::uint64_t i = 0; i < coarser; ++i)
     model.coarser.push_back(std::make_shared<const Model>(get_model(in, depth + 1)));
-  if (pair_step > 0) model.pairs = pairs::index_pairs(model, pair_step);
+  if (pair_step != 0) model.pairs = pairs::index_pairs(model, pair_step);
   return model;
 }
 

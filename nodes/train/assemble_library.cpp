@@ -11,7 +11,7 @@
 // Fails where two models have the same obj_id, or descriptors differ in length. Time: O(size).
 //
 //   assemble_library: {in: [model_files, octave_meshes, model_clouds, model_features,
-//                           near_symmetries, outlines, octaves], out: library, search: exact}
+//                           symmetries, near_symmetries, outlines, octaves], out: library, search: exact}
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -35,6 +35,7 @@ struct Params : descriptors::IndexOptions {
 struct Part {
   const Cloud& cloud;
   const FeatureSet& features;
+  const Symmetries& symmetries;
   const NearSymmetries& near_symmetries;
   const Outline& outline;
   const Scale& scale;
@@ -51,6 +52,7 @@ Model shape_of(const ModelFile& file, const Mesh& mesh, const Part& part) {
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   model.center = (0.5F * (low + high)).transpose();
   model.diagonal = (high - low).norm();
+  model.symmetries = part.symmetries;
   model.near_symmetries = part.near_symmetries;
   model.outline = part.outline;
   return model;
@@ -109,19 +111,20 @@ void require_slots(std::size_t models, std::size_t octaves, const std::vector<st
 
 ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& meshes,
                               const PerObject<Cloud>& clouds, const PerObject<FeatureSet>& features,
+                              const PerObject<Symmetries>& symmetries,
                               const PerObject<NearSymmetries>& near_symmetries,
                               const PerObject<Outline>& outlines, const PerObject<Scale>& octaves,
                               const Params& params) {
   const std::size_t count = files.size();
-  require_slots(
-      count, octaves.size(),
-      {meshes.size(), clouds.size(), features.size(), near_symmetries.size(), outlines.size()});
+  require_slots(count, octaves.size(),
+                {meshes.size(), clouds.size(), features.size(), symmetries.size(),
+                 near_symmetries.size(), outlines.size()});
   ModelLibrary library;
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<Part> parts;
     for (std::size_t slot = i; slot < octaves.size(); slot += count)
-      parts.push_back(
-          {clouds[slot], features[slot], near_symmetries[slot], outlines[slot], octaves[slot]});
+      parts.push_back({clouds[slot], features[slot], symmetries[i], near_symmetries[slot],
+                       outlines[slot], octaves[slot]});
     library.models.push_back(
         std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts, params)));
   }
@@ -140,6 +143,7 @@ const auto registered =
         .input("octave_meshes")
         .input("model_clouds")
         .input("model_features")
+        .input("symmetries")
         .input("near_symmetries")
         .input("outlines")
         .input("octaves")

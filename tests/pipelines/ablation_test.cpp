@@ -16,14 +16,14 @@ TEST_CASE("experiment ablation says what terms bring, of segmentation and traini
   REQUIRE(run_posevote(folder, "simulate " + spec + " --out " + set).status == 0);
   const CommandResult result = run_posevote(
       folder,
-      "experiment ablation --every 2 --terms promising hopeless min_score find_near_symmetries.most"
+      "experiment ablation --every 2 --terms promising hopeless min_score find_symmetries.most"
       " --sets uwa=" +
           set + " --out " + (folder / "out").string());
   INFO(result.output);
   REQUIRE(result.status == 0);
   CHECK(result.output.find("image 2 of 2, 12 variations") != std::string::npos);
   CHECK(result.output.find("| all | as they are | | 2 of 2 | 0 |") != std::string::npos);
-  CHECK(result.output.find("| find_near_symmetries.most | off | 0 | = | = |") != std::string::npos);
+  CHECK(result.output.find("| find_symmetries.most | off | 0 | = | = |") != std::string::npos);
   const std::string csv = read_text(folder / "out/ablation.csv");
   CHECK(csv.find("\nkettles,segment_objects.promising,off,0,2,2,0,") != std::string::npos);
   CHECK(csv.find("\nkettles,segment_objects.min_score,off,0,2,2,") != std::string::npos);

@@ -115,7 +115,7 @@ TEST_CASE("a variation differs in one parameter alone", "[ablation]") {
 
 TEST_CASE("whatever is said to be off is a parameter, and allowed", "[ablation]") {
   std::set<std::string> found;
-  for (const char* name : {"segment_objects", "find_near_symmetries"}) {
+  for (const char* name : {"segment_objects", "find_symmetries"}) {
     const graph::NodeSpec* spec = graph::find_node(name);
     REQUIRE(spec);
     const std::shared_ptr<void> params = spec->make_params();

@@ -11,7 +11,7 @@ namespace posevote::ablation {
 
 /// The nodes that are varied. Nothing before the segmentation reads what the training node makes.
 inline constexpr const char* kSegmentation = "segment_objects";
-inline constexpr const char* kTraining = "find_near_symmetries";
+inline constexpr const char* kTraining = "find_symmetries";
 
 /// Whether a parameter of one of them is called so: param or node.param.
 bool is_term(const std::string& term);

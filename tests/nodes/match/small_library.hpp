@@ -39,6 +39,7 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
   PerObject<Mesh> meshes;
   PerObject<Cloud> clouds;
   PerObject<FeatureSet> features;
+  PerObject<Symmetries> symmetries;
   PerObject<NearSymmetries> near_symmetries;
   PerObject<Outline> outlines;
   PerObject<Scale> octaves;
@@ -49,13 +50,17 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
     meshes.slots.push_back(std::make_shared<const Mesh>(Mesh{cloud.points, {}, {}}));
     clouds.slots.push_back(std::make_shared<const Cloud>(cloud));
     features.slots.push_back(std::make_shared<const FeatureSet>(features_at(values[i])));
+    symmetries.slots.push_back(std::make_shared<const Symmetries>(
+        Symmetries{{0.5F, 0, static_cast<float>(id)},
+                   {Eigen::Quaternionf::Identity(), {0, 1, 0, 0}},
+                   {Eigen::Vector3f::UnitZ()}}));
     near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(NearSymmetries{
         {{Eigen::Isometry3d(Eigen::AngleAxisd(id, Eigen::Vector3d::UnitZ())), {0, 2}, {1}}}}));
     outlines.slots.push_back(std::make_shared<const Outline>(Outline{0.01F, {1, 2, 4}}));
     octaves.slots.push_back(std::make_shared<const Scale>(Scale{0.002F}));
   }
   return run_node<ModelLibrary>("assemble_library", params, files, meshes, clouds, features,
-                                near_symmetries, outlines, octaves);
+                                symmetries, near_symmetries, outlines, octaves);
 }
 
 }  // namespace posevote::test

@@ -45,9 +45,9 @@ TEST_CASE("the centre is that of the mesh, not of the sampled cloud", "[match]")
       std::make_shared<const Mesh>(Mesh{box_cloud({-2, 0, 0}, {4, 1, 1}).points, {}, {}})};
   cloud.slots = {std::make_shared<const Cloud>(box_cloud({0, 0, 0}, {1, 1, 1}))};
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
-  const auto library = run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                                              mesh, cloud, features, one_empty<NearSymmetries>(),
-                                              one_empty<Outline>(), one_octave());
+  const auto library = run_node<ModelLibrary>(
+      "assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}}, mesh, cloud, features,
+      one_empty<Symmetries>(), one_empty<NearSymmetries>(), one_empty<Outline>(), one_octave());
   CHECK(library.models[0]->center.isApprox(Eigen::Vector3f(1, 0.5F, 0.5F)));
   CHECK(library.models[0]->cloud.points == cloud[0].points);
 }
@@ -56,16 +56,16 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
   CHECK_THROWS_WITH(make_library({}), Catch::Contains("no models"));
   CHECK_THROWS_WITH(make_library({{1}, {2}}, {}, {3, 3}), Catch::Contains("same obj_id 3"));
   CHECK_THROWS_WITH(make_library({{1}}, {{"search", "quick"}}), Catch::Contains("search"));
-  CHECK_THROWS_WITH(
-      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                             PerObject<Mesh>{}, PerObject<Cloud>{}, PerObject<FeatureSet>{},
-                             PerObject<NearSymmetries>{}, PerObject<Outline>{}, one_octave()),
-      Catch::Contains("1 model files in 1 octaves, but 0 results"));
+  CHECK_THROWS_WITH(run_node<ModelLibrary>(
+                        "assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}}, PerObject<Mesh>{},
+                        PerObject<Cloud>{}, PerObject<FeatureSet>{}, PerObject<Symmetries>{},
+                        PerObject<NearSymmetries>{}, PerObject<Outline>{}, one_octave()),
+                    Catch::Contains("1 model files in 1 octaves, but 0 results"));
   PerObject<FeatureSet> features;
   features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
-  CHECK_THROWS_WITH(
-      run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
-                             one_empty<Mesh>(), one_empty<Cloud>(), features,
-                             one_empty<NearSymmetries>(), one_empty<Outline>(), one_octave()),
-      Catch::Contains("a.ply: has no points"));
+  CHECK_THROWS_WITH(run_node<ModelLibrary>("assemble_library", {}, ModelFiles{{"a.ply", 1, "a"}},
+                                           one_empty<Mesh>(), one_empty<Cloud>(), features,
+                                           one_empty<Symmetries>(), one_empty<NearSymmetries>(),
+                                           one_empty<Outline>(), one_octave()),
+                    Catch::Contains("a.ply: has no points"));
 }

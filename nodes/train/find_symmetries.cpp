@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions that carry a model nearly onto itself: a carton turned by half, a cup upside down. From
-// most sides such poses look alike and get each other's votes, so who finds one should look at the
-// others too (poses/twins.hpp). Motions after which nothing differs are symmetries: nobody can
-// tell the poses apart, and they are left out.
+// Motions that carry a model onto itself, or nearly so. Exact ones are its symmetries: nobody can
+// tell the poses apart (a can turned about its axis), so their votes should agree and a robot may
+// choose. Near ones tell two poses apart by little: a carton turned by half, a cup upside down. From
+// most sides they look alike and get each other's votes, so who finds one should look at the others
+// too (poses/twins.hpp).
 //
 // Rotations about the centre, spread evenly over SO(3) (Alexa, "Super-Fibonacci Spirals", CVPR
 // 2022), are rated by the share of points that come to lie near a point whose normal agrees; the
-// best are refined by ICP and rated anew, finely. Of each motion that is kept it notes the points
-// of the cloud by which the two differ; so the cloud must be the one that the model is made of.
+// best are refined by ICP and rated anew, finely. The exact ones of them make a group, or an axis
+// (exact_symmetries.hpp). Of each near one it notes the points of the cloud by which the two differ;
+// so the cloud must be the one that the model is made of.
 // Cost: some 600 000 searches for a neighbour, and two for each motion and point.
 //
-//   find_near_symmetries: {in: [cloud, scale], out: near_symmetries, least: 0.6}
+//   find_symmetries: {in: [cloud, scale], out: [symmetries, near_symmetries], least: 0.6}
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <vector>
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/select_rows.hpp"
+#include "nodes/train/exact_symmetries.hpp"
 
 namespace posevote::train {
 namespace {
@@ -113,7 +118,11 @@ class Judge {
     const Isometry3d between = a.inverse() * b;
     if (Eigen::AngleAxisd(between.linear()).angle() < params_.same_motion * std::numbers::pi / 180)
       return true;
-    return share_of(sample_, between, [this](const geometry::OrientedPoint& p) {
+    return is_exact(between);
+  }
+  /// Whether a motion carries the model onto itself.
+  bool is_exact(const Isometry3d& motion) const {
+    return share_of(sample_, motion, [this](const geometry::OrientedPoint& p) {
              return is_on(p);
            }) >= params_.symmetric;
   }
@@ -138,17 +147,16 @@ class Judge {
   float fine_;
 };
 
-NearSymmetries find_near_symmetries(const Cloud& cloud, const Scale& scale, const Params& params) {
-  if (cloud.points.rows() == 0 || cloud.normals.rows() != cloud.points.rows()) return {};
-  const Eigen::RowVector3f low = cloud.points.colwise().minCoeff();
-  const Eigen::RowVector3f high = cloud.points.colwise().maxCoeff();
-  const Eigen::Vector3d center = (0.5F * (low + high)).transpose().cast<double>();
-  const float near = static_cast<float>(params.coarse) * (high - low).norm();
-  std::vector<Rated> motions = rate_rotations(cloud, center, near, params);
-  const Judge judge(cloud, static_cast<float>(params.fine) * scale.resolution, params);
-  graph::parallel_for(motions.size(), 1,
-                      [&](std::size_t i) { motions[i] = judge.refine(motions[i], near); });
-  sort_by_overlap(motions);
+Symmetries find_exact(const Cloud& cloud, const Judge& judge, const std::vector<Rated>& motions,
+                      const Params& params) {
+  std::vector<Isometry3d> all;
+  for (const Rated& one : motions) all.push_back(one.motion);
+  return exact_symmetries(cloud, all, params.same_motion * std::numbers::pi / 180,
+                          [&judge](const Isometry3d& motion) { return judge.is_exact(motion); });
+}
+
+NearSymmetries find_near(const Cloud& cloud, const Judge& judge, const std::vector<Rated>& motions,
+                         const Params& params) {
   NearSymmetries found;
   for (const Rated& one : motions) {
     if (one.overlap < params.least || found.items.size() == static_cast<std::size_t>(params.most))
@@ -165,11 +173,28 @@ NearSymmetries find_near_symmetries(const Cloud& cloud, const Scale& scale, cons
   return found;
 }
 
+std::tuple<Symmetries, NearSymmetries> find_symmetries(const Cloud& cloud, const Scale& scale,
+                                                       const Params& params) {
+  if (cloud.points.rows() == 0 || cloud.normals.rows() != cloud.points.rows()) return {};
+  const Eigen::RowVector3f low = cloud.points.colwise().minCoeff();
+  const Eigen::RowVector3f high = cloud.points.colwise().maxCoeff();
+  const Eigen::Vector3d center = (0.5F * (low + high)).transpose().cast<double>();
+  const float near = static_cast<float>(params.coarse) * (high - low).norm();
+  std::vector<Rated> motions = rate_rotations(cloud, center, near, params);
+  const Judge judge(cloud, static_cast<float>(params.fine) * scale.resolution, params);
+  graph::parallel_for(motions.size(), 1,
+                      [&](std::size_t i) { motions[i] = judge.refine(motions[i], near); });
+  sort_by_overlap(motions);
+  return {find_exact(cloud, judge, motions, params), find_near(cloud, judge, motions, params)};
+}
+
 const auto registered =
-    graph::register_node("find_near_symmetries", find_near_symmetries,
-                         "Motions that carry a model nearly onto itself, and where the two differ.")
+    graph::register_node(
+        "find_symmetries", find_symmetries,
+        "Motions that carry a model onto itself, or nearly so, and where the two differ.")
         .input("cloud")
         .input("scale")
+        .output("symmetries")
         .output("near_symmetries")
         .param("least", &Params::least, "",
                "Share of the surface that must come to lie on the surface again.",
