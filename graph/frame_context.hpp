@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,10 +15,16 @@
 
 namespace posevote::graph {
 
-/// What one node of a frame took.
+/// What a node measured of a frame: one number or several by a name that ends in the unit
+/// (spacing_m).
+using Figures = std::map<std::string, std::vector<double>>;
+
+/// What one node of a frame took, measured and told.
 struct Stage {
   std::string node;
   Span span;
+  Figures figures{};
+  std::vector<std::string> warnings{};  ///< each once, sorted
 };
 
 /// What a node may know about its frame beyond its inputs.
@@ -29,10 +36,16 @@ struct FrameContext {
   std::filesystem::path file{};  ///< what the frame was made from, for messages
   std::vector<Stage> stages{};   ///< the other nodes, in the plan's order; for one that runs last
   std::function<void(const std::string&)> on_warning{};  ///< empty where nobody listens
+  std::function<void(const std::string&, std::vector<double>)>
+      on_figure{};  ///< empty where nobody listens
 
   /// Tells whoever runs the frame what may be wrong with it although it is answered.
   void warn(const std::string& what) const {
     if (on_warning) on_warning(what);
+  }
+  /// Tells whoever runs the frame what was measured of it; the names of nodes must differ.
+  void tell(const std::string& what, std::vector<double> figure) const {
+    if (on_figure) on_figure(what, std::move(figure));
   }
 };
 

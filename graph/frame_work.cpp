@@ -3,7 +3,6 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -55,6 +54,7 @@ FrameState::FrameState(std::size_t order, UntypedFrame entering, const Plan& pla
       arrivals(plan.nodes.size() + 1),
       failures(plan.nodes.size()),
       warnings(plan.nodes.size()),
+      figures(plan.nodes.size()),
       spans(plan.nodes.size()) {
   for (std::size_t i = 0; i < plan.streams.size(); ++i)
     readers[i] = static_cast<int>(plan.streams[i].consumers.size());
@@ -155,13 +155,20 @@ void FrameWork::tell(std::size_t i, const Failure& failure, FrameState& state) {
 FrameContext FrameWork::context_of(std::size_t i, FrameState& state) const {
   FrameContext context = state.frame.context;
   context.on_warning = [&state, i](const std::string& what) {
-    const std::lock_guard lock(state.warning);
-    state.warnings[i].push_back(what);
+    const std::lock_guard lock(state.telling);
+    state.warnings[i].insert(what);  // sorted: threads tell in any order
+  };
+  context.on_figure = [&state, i](const std::string& what, std::vector<double> figure) {
+    const std::lock_guard lock(state.telling);
+    state.figures[i][what] = std::move(figure);
   };
   if (!plan_.nodes[i].spec->last) return context;
   for (std::size_t other = 0; other < plan_.nodes.size(); ++other)
     if (!plan_.nodes[other].spec->last)
-      context.stages.push_back({plan_.nodes[other].name, state.spans[other]});
+      context.stages.push_back({plan_.nodes[other].name,
+                                state.spans[other],
+                                state.figures[other],
+                                {state.warnings[other].begin(), state.warnings[other].end()}});
   return context;
 }
 
@@ -173,11 +180,9 @@ detail::UntypedResult FrameWork::result(FrameState& state) const {
   result.spans = std::move(state.spans);
   for (const auto& failure : state.failures)
     if (failure && !result.failure) result.failure = failure;
-  for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
-    std::set<std::string> distinct(state.warnings[i].begin(), state.warnings[i].end());
-    for (const std::string& what : distinct)  // sorted: threads tell in any order
+  for (std::size_t i = 0; i < plan_.nodes.size(); ++i)
+    for (const std::string& what : state.warnings[i])
       result.warnings.push_back({plan_.nodes[i].name, what});
-  }
   return result;
 }
 

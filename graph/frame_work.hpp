@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "graph/flow.hpp"
@@ -26,8 +28,9 @@ struct FrameState {
   std::vector<std::atomic<int>> readers;
   std::vector<std::atomic<int>> arrivals;  ///< per node, the last one for the sink
   std::vector<std::optional<Failure>> failures;
-  std::mutex warning;  ///< held by whoever adds one: a lifted node runs on several threads
-  std::vector<std::vector<std::string>> warnings;  ///< per node
+  std::mutex telling;  ///< held by whoever adds one: a lifted node runs on several threads
+  std::vector<std::set<std::string>> warnings;  ///< per node
+  std::vector<Figures> figures;                 ///< per node
   std::vector<Span> spans;
 };
 

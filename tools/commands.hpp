@@ -37,6 +37,7 @@ struct TrainCommand {
   std::vector<std::string> models, set;
   std::string out, on_error = "skip";
   std::string model_unit;  ///< empty: as the config says
+  bool report = false;
 };
 int train_command(const TrainCommand& command);
 

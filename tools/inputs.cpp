@@ -11,6 +11,7 @@
 #include "nodes/formats/format.hpp"
 #include "nodes/layouts/files.hpp"
 #include "nodes/layouts/layout.hpp"
+#include "nodes/layouts/models_info.hpp"
 
 namespace posevote {
 namespace {
@@ -106,8 +107,15 @@ ModelFiles list_models(const std::vector<std::string>& arguments) {
       files.push_back(path);
     }
   ModelFiles models;
-  for (const auto& [obj_id, path] : as_arguments([&] { return layouts::number_models(files); }))
+  std::map<fs::path, std::map<int, Symmetries>> known;  // by models_info.json
+  for (const auto& [obj_id, path] : as_arguments([&] { return layouts::number_models(files); })) {
     models.push_back({path, obj_id, path.stem().string()});
+    const fs::path info = path.parent_path() / "models_info.json";
+    if (!known.contains(info))
+      known[info] = as_arguments([&] { return layouts::known_symmetries(info); });
+    const auto said = known[info].find(obj_id);
+    if (said != known[info].end()) models.back().symmetries = said->second;
+  }
   return models;
 }
 

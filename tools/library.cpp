@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "graph/runner.hpp"
@@ -22,11 +23,22 @@ namespace fs = std::filesystem;
 /// the nodes.
 constexpr const char* kThisProgram = "/proc/self/exe";
 
-/// The parameters, and obj_id and name of each model: bytes alone do not say which object it is.
+std::string symmetry_text(const ModelFile& model) {
+  if (!model.symmetries) return "";
+  std::ostringstream text;
+  text << model.symmetries->fixed_point.transpose();
+  for (const Eigen::Quaternionf& turn : model.symmetries->turns)
+    text << " turn " << turn.coeffs().transpose();
+  for (const Eigen::Vector3f& axis : model.symmetries->axes) text << " axis " << axis.transpose();
+  return text.str();
+}
+
+/// The parameters, and obj_id, name and given symmetries of each model: bytes alone do not say which
+/// object it is.
 std::string parameters_with_names(const Configuration& configuration, const ModelFiles& models) {
   std::string text = training_parameters(configuration.models);
   for (const ModelFile& model : models)
-    text += std::to_string(model.obj_id) + " " + model.name + "\n";
+    text += std::to_string(model.obj_id) + " " + model.name + " " + symmetry_text(model) + "\n";
   return text;
 }
 

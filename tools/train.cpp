@@ -6,6 +6,7 @@
 #include "tools/inputs.hpp"
 #include "tools/library.hpp"
 #include "tools/overrides.hpp"
+#include "tools/symmetry_report.hpp"
 
 namespace posevote {
 
@@ -15,12 +16,14 @@ int train_command(const TrainCommand& command) {
   const auto library =
       train(configuration, list_models(command.models), bad_models(command.on_error));
   library::save_library(*library, command.out, library_key(configuration));
-  for (const auto& model : library->models)
+  for (const auto& model : library->models) {
     std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()
               << " points, " << model->features.points.rows() << " features, "
               << model->symmetries.turns.size() << " turns, " << model->symmetries.axes.size()
               << " axes of symmetry, " << model->near_symmetries.items.size()
               << " near symmetries, diagonal " << model->diagonal << " m\n";
+    if (command.report) std::cout << symmetry_report(*model);
+  }
   for (const LibraryOctave& octave : library->octaves)
     std::cout << "octave of " << octave.resolution << " m: " << octave.rows.size() << " models\n";
   std::cout << "wrote " << command.out << "\n";

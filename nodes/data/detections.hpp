@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nodes/data/clues.hpp"
+#include "nodes/data/symmetries.hpp"
 
 namespace posevote {
 
@@ -23,6 +24,7 @@ struct Detection {
   double inlier_fraction = 0;  ///< of the model points that face the sensor, those on scene points
   double rmse = 0;             ///< point-to-plane, over the inliers [m]
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
+  Symmetries symmetries;  ///< of the model: poses that look the same
 };
 
 /// All detections of a frame, in the order in which they were found.

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "nodes/data/symmetries.hpp"
+
 namespace posevote {
 
 /// Pinhole camera of a depth image, as in BOP's `scene_camera.json`.
@@ -28,6 +30,8 @@ struct ModelFile {
   std::filesystem::path path;
   int obj_id = 1;
   std::string name;  ///< file stem, the name in reports
+  std::optional<Symmetries>
+      symmetries{};  ///< as a models_info.json beside it says; else they are found
 };
 
 using ModelFiles = std::vector<ModelFile>;

@@ -35,36 +35,62 @@ std::string line(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+std::vector<double> row_by_row(const Eigen::Isometry3d& T) {
+  std::vector<double> matrix;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) matrix.push_back(T.matrix()(row, column));
+  return matrix;
+}
+
+/// As in BOP's models_info.json, but in metres.
+ordered_json to_json(const Symmetries& symmetries) {
+  const Eigen::Vector3d about = symmetries.fixed_point.cast<double>();
+  ordered_json discrete = ordered_json::array(), continuous = ordered_json::array();
+  for (std::size_t i = 1; i < symmetries.turns.size(); ++i)
+    discrete.push_back(
+        row_by_row(Eigen::Translation3d(about) * symmetries.turns[i].cast<double>().normalized() *
+                   Eigen::Translation3d(-about)));
+  for (const Eigen::Vector3f& axis : symmetries.axes)
+    continuous.push_back(
+        {{"axis", {axis.x(), axis.y(), axis.z()}}, {"offset", {about.x(), about.y(), about.z()}}});
+  return {{"discrete", discrete}, {"continuous", continuous}};
+}
+
 ordered_json to_json(const Detection& found) {
   ordered_json clues;
   for (std::size_t i = 0; i < kClueCount; ++i) clues[kClueNames[i]] = found.clues[i];
-  std::vector<double> matrix;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      matrix.push_back(found.T_scene_model.matrix()(row, column));
-  return {{"obj_id", found.obj_id},
-          {"model", found.model},
-          {"confidence", found.confidence},
-          {"score", found.score},
-          {"density", found.density},
-          {"runner_up_density", found.runner_up_density},
-          {"inlier_fraction", found.inlier_fraction},
-          {"rmse_m", found.rmse},
-          {"clues", clues},
-          {"T_scene_model", matrix}};
+  ordered_json json{{"obj_id", found.obj_id},
+                    {"model", found.model},
+                    {"confidence", found.confidence},
+                    {"score", found.score},
+                    {"density", found.density},
+                    {"runner_up_density", found.runner_up_density},
+                    {"inlier_fraction", found.inlier_fraction},
+                    {"rmse_m", found.rmse},
+                    {"clues", clues},
+                    {"T_scene_model", row_by_row(found.T_scene_model)}};
+  if (found.symmetries.any()) json["symmetries"] = to_json(found.symmetries);
+  return json;
 }
 
 ordered_json to_json(const FrameReport& frame, const Detections& detections) {
   ordered_json list = ordered_json::array();
   for (const Detection& found : detections.items) list.push_back(to_json(found));
-  return {{"frame", frame.number},
-          {"name", frame.name},
-          {"file", frame.file.path.string()},
-          {"scene_id", frame.file.scene_id},
-          {"im_id", frame.file.im_id},
-          {"seconds", frame.seconds},
-          {"stages", frame.stages},
-          {"detections", list}};
+  ordered_json warnings = ordered_json::array();
+  for (const graph::Warning& warning : frame.warnings)
+    warnings.push_back({{"node", warning.node}, {"what", warning.what}});
+  ordered_json json{{"frame", frame.number},
+                    {"name", frame.name},
+                    {"file", frame.file.path.string()},
+                    {"scene_id", frame.file.scene_id},
+                    {"im_id", frame.file.im_id},
+                    {"seconds", frame.seconds},
+                    {"stages", frame.stages}};
+  for (const auto& [name, figure] : frame.figures)
+    json[name] = figure.size() == 1 ? ordered_json(figure[0]) : ordered_json(figure);
+  json["warnings"] = warnings;
+  json["detections"] = list;
+  return json;
 }
 
 /// Rows of results.csv from a line of results.json, which holds all of them: a killed run may have

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/frame_context.hpp"
 #include "graph/trace.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/files.hpp"
@@ -25,6 +26,8 @@ struct FrameReport {
   double seconds = 0;  ///< of the machine: of the run's time its share (graph::cost)
   std::map<std::string, double> stages;  ///< of them, per node
   std::string name;                      ///< of the files that writers make for it
+  graph::Figures figures{};              ///< of all nodes
+  std::vector<graph::Warning> warnings{};
 };
 
 struct FailureReport {

@@ -70,4 +70,18 @@ int whole(const nlohmann::json& entry, const std::string& name, int least) {
   return value.get<int>();
 }
 
+std::vector<double> numbers(const nlohmann::json& list, std::size_t count,
+                            const std::string& name) {
+  auto values = list.get<std::vector<double>>();
+  if (values.size() != count)
+    throw std::invalid_argument(name + " has " + std::to_string(values.size()) +
+                                " numbers, expected " + std::to_string(count));
+  return values;
+}
+
+Eigen::Vector3d metres(const nlohmann::json& list, const std::string& name) {
+  const std::vector<double> v = numbers(list, 3, name);
+  return Eigen::Vector3d(v[0], v[1], v[2]) * kMetresPerUnit;
+}
+
 }  // namespace posevote::layouts

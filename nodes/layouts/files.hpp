@@ -2,9 +2,11 @@
 // What layouts share: folders and files of numbers, and complaints that name them.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,5 +23,23 @@ std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folde
 /// obj_id of each model file: from `obj_NNNNNN` names, else 1.. by the sort of all names, in
 /// whatever order they are given. Throws std::runtime_error for two models of one obj_id.
 std::map<int, std::filesystem::path> number_models(std::vector<std::filesystem::path> files);
+
+/// A list of so many numbers. Throws std::invalid_argument, which names it.
+std::vector<double> numbers(const nlohmann::json& list, std::size_t count, const std::string& name);
+/// A point or way in mm as one in metres.
+inline constexpr double kMetresPerUnit = 0.001;
+Eigen::Vector3d metres(const nlohmann::json& list, const std::string& name);
+
+/// Runs `read`; what is wrong with the file's types or keys is reported with the place in it.
+template <class Read>
+auto located(const std::filesystem::path& file, const std::string& place, const Read& read) {
+  try {
+    return read();
+  } catch (const nlohmann::json::exception& error) {
+    fail(file, place + ": " + error.what());
+  } catch (const std::invalid_argument& error) {
+    fail(file, place + ": " + error.what());
+  }
+}
 
 }  // namespace posevote::layouts

@@ -4,54 +4,13 @@
 #include <stdexcept>
 
 #include "nodes/geometry/rotation.hpp"
+#include "nodes/layouts/models_info.hpp"
 
 namespace posevote::layouts {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr double kMetresPerUnit = 0.001;
-
-/// Runs `read`; what is wrong with the file's types or keys is reported with the place in it.
-template <class Read>
-auto located(const fs::path& file, const std::string& place, const Read& read) {
-  try {
-    return read();
-  } catch (const json::exception& error) {
-    fail(file, place + ": " + error.what());
-  } catch (const std::invalid_argument& error) {
-    fail(file, place + ": " + error.what());
-  }
-}
-
-std::vector<double> numbers(const json& list, std::size_t count, const std::string& name) {
-  auto values = list.get<std::vector<double>>();
-  if (values.size() != count)
-    throw std::invalid_argument(name + " has " + std::to_string(values.size()) +
-                                " numbers, expected " + std::to_string(count));
-  return values;
-}
-
-Eigen::Vector3d metres(const json& list, const std::string& name) {
-  const std::vector<double> v = numbers(list, 3, name);
-  return Eigen::Vector3d(v[0], v[1], v[2]) * kMetresPerUnit;
-}
-
-Eigen::Isometry3d read_symmetry(const json& list) {
-  const std::vector<double> m = numbers(list, 16, "symmetries_discrete");
-  return geometry::make_pose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
-                             Eigen::Vector3d(m[3], m[7], m[11]) * kMetresPerUnit);
-}
-
-SymmetryAxis read_axis(const json& symmetry) {
-  SymmetryAxis axis;
-  axis.direction = metres(symmetry.at("axis"), "axis").normalized();
-  if (symmetry.contains("offset")) axis.offset = metres(symmetry.at("offset"), "offset");
-  if (!axis.direction.allFinite() || axis.direction.isZero() || !axis.offset.allFinite())
-    throw std::invalid_argument("the axis of a symmetry has no direction");
-  return axis;
-}
 
 TrueObject read_object(const json& info) {
   TrueObject object;
@@ -62,11 +21,8 @@ TrueObject read_object(const json& info) {
     object.center[axis] = (info.at("min_" + axes[axis]).get<double>() +
                            info.at("size_" + axes[axis]).get<double>() / 2) *
                           kMetresPerUnit;
-  object.symmetries = {Eigen::Isometry3d::Identity()};
-  for (const json& matrix : info.value("symmetries_discrete", json::array()))
-    object.symmetries.push_back(read_symmetry(matrix));
-  for (const json& symmetry : info.value("symmetries_continuous", json::array()))
-    object.axes.push_back(read_axis(symmetry));
+  object.symmetries = read_symmetries(info);
+  object.axes = read_axes(info);
   return object;
 }
 

@@ -155,7 +155,7 @@ Scan load_points(const std::filesystem::path& file, const graph::FrameContext& c
   return scan;
 }
 
-Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
+Scan load_file(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
   if (!formats::has_ending(file.path, formats::Wanted::kDepthImages))
     return load_points(file.path, context, params);
   if (!params.sensor_pose.empty())
@@ -164,6 +164,13 @@ Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const
         "point files");
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
   return read_depth(file.path, file.camera.value_or(given), {params.min_depth, params.max_depth});
+}
+
+Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
+  Scan scan = load_file(file, context, params);
+  const Eigen::Vector3d place = scan.view.origin.cast<double>();
+  context.tell("sensor_pose", {place.x(), place.y(), place.z()});
+  return scan;
 }
 
 const auto registered =

@@ -47,6 +47,7 @@ Detection make_detection(const Model& model, const Candidate& candidate) {
   detection.inlier_fraction = candidate.fit.inlier_fraction;
   detection.rmse = candidate.fit.rmse;
   detection.T_scene_model = candidate.T_scene_model;
+  detection.symmetries = model.symmetries;
   return detection;
 }
 

@@ -87,9 +87,14 @@ double finest_resolution(const Scan& scan, const std::vector<LibraryOctave>& oct
     const auto found = geometry::normal_noise(scan.points, rows, scan.view.origin,
                                               kWidth * static_cast<float>(resolution));
     if (found) tilt = static_cast<double>(*found);
-    if (found && tilt <= params.tilt * kDegree) return resolution;
+    if (found && tilt <= params.tilt * kDegree) break;
   }
-  warn_of(context, spacing, tilt, coarsest, params);
+  context.tell("range_m", {static_cast<double>(range)});
+  context.tell("spacing_m", {spacing});
+  context.tell("noise_m", {static_cast<double>(noise.noise_at(range))});
+  context.tell("normal_tilt_deg", {tilt / kDegree});
+  context.tell("resolution_m", {resolution});
+  if (resolution >= coarsest) warn_of(context, spacing, tilt, coarsest, params);
   return resolution;
 }
 

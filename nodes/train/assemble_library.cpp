@@ -52,7 +52,7 @@ Model shape_of(const ModelFile& file, const Mesh& mesh, const Part& part) {
   const Eigen::RowVector3f high = mesh.points.colwise().maxCoeff();
   model.center = (0.5F * (low + high)).transpose();
   model.diagonal = (high - low).norm();
-  model.symmetries = part.symmetries;
+  model.symmetries = file.symmetries.value_or(part.symmetries);
   model.near_symmetries = part.near_symmetries;
   model.outline = part.outline;
   return model;

@@ -42,6 +42,8 @@ formats::FrameReport report_of(const SceneFile& file, const graph::FrameContext&
   for (const graph::Stage& stage : context.stages) {
     spans.push_back(stage.span);
     if (stage.span.ran()) report.stages[stage.node] = stage.span.share * 1e-6;
+    report.figures.insert(stage.figures.begin(), stage.figures.end());
+    for (const std::string& what : stage.warnings) report.warnings.push_back({stage.node, what});
   }
   report.seconds = graph::cost(spans);
   return report;

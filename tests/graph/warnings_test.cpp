@@ -13,10 +13,22 @@ struct None {};
 
 Number doubt(const Number& in, const graph::FrameContext& context, const None&) {
   if (in.value % 3 == 0) context.warn(std::to_string(in.value) + " is odd of it");
+  context.tell("value", {static_cast<double>(in.value)});
   return in;
+}
+
+std::vector<std::string> heard;
+
+void listen(const Number&, const graph::FrameContext& context, const None&) {
+  for (const graph::Stage& stage : context.stages)
+    heard.push_back(stage.node + " " +
+                    std::to_string(static_cast<int>(stage.figures.at("value").at(0))) +
+                    (stage.warnings.empty() ? "" : " odd"));
 }
 const auto registered =
     graph::register_node("doubt", doubt, "Warns of some numbers.").input("n").output("n");
+const auto registered_listen =
+    graph::register_node("listen", listen, "Hears what others tell.").input("n").last();
 
 }  // namespace
 
@@ -49,6 +61,18 @@ TEST_CASE("objects that warn alike are heard once, others in one order", "[runne
   });
 }
 
-TEST_CASE("without anybody to hear it a warning is nothing", "[runner]") {
+TEST_CASE("without anybody to hear it what a node tells is nothing", "[runner]") {
   CHECK_NOTHROW(graph::FrameContext{}.warn("nobody"));
+  CHECK_NOTHROW(graph::FrameContext{}.tell("count", {1}));
+}
+
+TEST_CASE("who runs last reads what the others told", "[runner]") {
+  heard.clear();
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  first: {node: doubt, in: n, out: a}\n"
+                                      "  second: {node: doubt, in: a, out: r}\n"
+                                      "  listen: {in: r}\n");
+  run_numbers(plan, 4, {}, [](const auto&) {});
+  CHECK(heard == std::vector<std::string>{"first 0 odd", "second 0 odd", "first 1", "second 1",
+                                          "first 2", "second 2", "first 3 odd", "second 3 odd"});
 }

@@ -91,6 +91,21 @@ TEST_CASE("a BOP split gives images with their cameras", "[inputs]") {
   CHECK_THROWS_WITH(list_dataset_scenes(folder.path().string(), "train"), Catch::Contains("train"));
 }
 
+TEST_CASE("models_info.json beside the models says their symmetries", "[inputs]") {
+  const TemporaryFolder folder;
+  folder.write("models/obj_000001.ply", "");
+  folder.write("models/obj_000002.ply", "");
+  folder.write("models/models_info.json",
+               R"({"2": {"symmetries_continuous": [{"axis": [0, 0, 1], "offset": [0, 0, 0]}]}})");
+  const ModelFiles models = list_models({(folder / "models").string()});
+  CHECK_FALSE(models[0].symmetries.has_value());
+  REQUIRE(models[1].symmetries.has_value());
+  CHECK(models[1].symmetries->axes.size() == 1);
+  folder.write("models/models_info.json", "{");
+  CHECK_THROWS_WITH(list_models({(folder / "models").string()}),
+                    Catch::Contains("models_info.json: is no JSON object"));
+}
+
 TEST_CASE("shards share out all scans and keep their numbers", "[inputs]") {
   std::vector<SceneEntry> scenes(7);
   for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].number = i;

@@ -87,6 +87,24 @@ TEST_CASE("the files are complete after every frame", "[write]") {
   CHECK(failures[1]["what"] == "empty");
 }
 
+TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out", false);
+  Detections can = one_chef();
+  Symmetries& symmetries = can.items[0].symmetries;
+  symmetries.fixed_point = {0.1F, 0, 0.2F};
+  symmetries.turns.emplace_back(0, 1, 0, 0);  // a half turn about x
+  symmetries.axes = {Eigen::Vector3f::UnitZ()};
+  formats::ResultsWriter(folder / "out").write(frame(0), can, {});
+  const auto listed = json(folder / "out/results.json")["frames"][0]["detections"][0]["symmetries"];
+  REQUIRE(listed["discrete"].size() == 1);
+  const std::vector<double> about_x{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0.4, 0, 0, 0, 1};
+  for (std::size_t i = 0; i < 16; ++i)
+    CHECK(listed["discrete"][0][i] == Approx(about_x[i]).margin(1e-7));
+  CHECK(listed["continuous"][0]["axis"] == nlohmann::json::parse("[0.0, 0.0, 1.0]"));
+  CHECK(listed["continuous"][0]["offset"][2] == Approx(0.2));
+}
+
 TEST_CASE("another run's folder is not written over", "[write]") {
   const TemporaryFolder folder;
   CHECK(formats::begin_results(folder / "out", false).empty());

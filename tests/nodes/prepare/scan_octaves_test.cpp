@@ -60,14 +60,22 @@ std::vector<float> octaves_of_scan(const Scan& scan, const std::vector<std::vect
 }
 
 /// What is said of the scan, where an object has octaves of 1 to 4 mm.
-std::string warning_of(const Scan& scan) {
+struct Told {
+  std::string warning;
+  graph::Figures figures;
+};
+
+Told told_of(const Scan& scan) {
   ModelLibrary library;
   const std::vector<float> octaves{0.001F, 0.002F, 0.004F};
   library.models.push_back(object(octaves));
   for (const float resolution : octaves) library.octaves.push_back({resolution, nullptr, {}});
-  std::string told;
+  Told told;
   graph::FrameContext context;
-  context.on_warning = [&told](const std::string& what) { told += what; };
+  context.on_warning = [&told](const std::string& what) { told.warning += what; };
+  context.on_figure = [&told](const std::string& what, const std::vector<double>& figure) {
+    told.figures[what] = figure;
+  };
   const graph::NodeSpec* spec = graph::find_node("scan_octaves");
   spec->call({graph::StreamTraits<Scan>::wrap(Scan(scan)),
               graph::StreamTraits<ModelLibrary>::wrap(std::move(library))},
@@ -79,10 +87,20 @@ std::string warning_of(const Scan& scan) {
 
 TEST_CASE("a scan too coarse or too noisy for its objects is said so", "[prepare]") {
   using Catch::Matchers::Contains;
-  CHECK(warning_of(wall(1, 0.001F, 0.0005F)) == "");
-  CHECK(warning_of(wall(1, 0.004F, 0.0001F)) == "");
-  CHECK_THAT(warning_of(wall(1, 0.009F, 0)), Contains("points are 8.5 mm apart, too far"));
-  CHECK_THAT(warning_of(wavy(0.002F, 0.005F, 130)), Contains("noise tilts the scan's normals by"));
+  CHECK(told_of(wall(1, 0.001F, 0.0005F)).warning == "");
+  CHECK(told_of(wall(1, 0.004F, 0.0001F)).warning == "");
+  CHECK_THAT(told_of(wall(1, 0.009F, 0)).warning, Contains("points are 8.5 mm apart, too far"));
+  CHECK_THAT(told_of(wavy(0.002F, 0.005F, 130)).warning,
+             Contains("noise tilts the scan's normals by"));
+}
+
+TEST_CASE("what was measured of a scan is told", "[prepare]") {
+  auto figures = told_of(wall(1, 0.002F, 0.001F)).figures;
+  CHECK(figures["range_m"].at(0) == Approx(1).epsilon(0.05));
+  CHECK(figures["spacing_m"].at(0) == Approx(0.002).epsilon(0.15));
+  CHECK(figures["noise_m"].at(0) == Approx(0.001).epsilon(0.15));
+  CHECK(figures["resolution_m"].at(0) >= 0.6 * figures["spacing_m"].at(0));
+  CHECK(figures["normal_tilt_deg"].at(0) > 0);
 }
 
 TEST_CASE("noise and spacing are measured from the scan", "[prepare]") {

@@ -52,6 +52,30 @@ TEST_CASE("the centre is that of the mesh, not of the sampled cloud", "[match]")
   CHECK(library.models[0]->cloud.points == cloud[0].points);
 }
 
+TEST_CASE("symmetries said of a model override those found", "[match]") {
+  PerObject<Mesh> mesh;
+  PerObject<Cloud> cloud;
+  PerObject<FeatureSet> features;
+  PerObject<Symmetries> found;
+  mesh.slots = {std::make_shared<const Mesh>(Mesh{box_cloud({0, 0, 0}, {4, 1, 1}).points, {}, {}})};
+  cloud.slots = {std::make_shared<const Cloud>(box_cloud({0, 0, 0}, {4, 1, 1}))};
+  features.slots = {std::make_shared<const FeatureSet>(features_at({1}))};
+  Symmetries half_turn;
+  half_turn.turns.emplace_back(0, 1, 0, 0);
+  found.slots = {std::make_shared<const Symmetries>(half_turn)};
+  ModelFile file{"a.ply", 1, "a"};
+  const auto turns = [&] {
+    return run_node<ModelLibrary>("assemble_library", {}, ModelFiles{file}, mesh, cloud, features,
+                                  found, one_empty<NearSymmetries>(), one_empty<Outline>(),
+                                  one_octave())
+        .models[0]
+        ->symmetries.turns.size();
+  };
+  CHECK(turns() == 2);
+  file.symmetries = Symmetries{};
+  CHECK(turns() == 1);
+}
+
 TEST_CASE("a library refuses what does not fit together", "[match]") {
   CHECK_THROWS_WITH(make_library({}), Catch::Contains("no models"));
   CHECK_THROWS_WITH(make_library({{1}, {2}}, {}, {3, 3}), Catch::Contains("same obj_id 3"));

@@ -35,7 +35,9 @@ graph::FrameContext frame(std::size_t number, const std::filesystem::path& out) 
           out,
           0,
           "scans/a.ply",
-          {{"load_scene", {1e6, 3e6, 0, 15e5}}, {"skipped", {}}, {"match", {2e6, 5e6, 1, 25e5}}}};
+          {{"load_scene", {1e6, 3e6, 0, 15e5}, {{"sensor_pose", {0, 0, 2}}}, {"far away"}},
+           {"skipped", {}},
+           {"match", {2e6, 5e6, 1, 25e5}, {{"spacing_m", {0.25}}}}}};
 }
 
 nlohmann::json json(const std::filesystem::path& file) {
@@ -61,6 +63,9 @@ TEST_CASE("write_results writes what is found and what failed, with the times of
   CHECK(first["scene_id"] == 3);
   CHECK(first["seconds"] == 4);  // the shares of both
   CHECK(first["stages"] == nlohmann::json({{"load_scene", 1.5}, {"match", 2.5}}));
+  CHECK(first["sensor_pose"] == nlohmann::json({0.0, 0.0, 2.0}));
+  CHECK(first["spacing_m"] == 0.25);
+  CHECK(first["warnings"] == nlohmann::json({{{"node", "load_scene"}, {"what", "far away"}}}));
   CHECK(first["detections"].size() == 1);
   CHECK(results["frames"][1]["frame"] == 2);
   REQUIRE(results["nodes"].size() == 3);
