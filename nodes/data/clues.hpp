@@ -10,18 +10,19 @@ namespace posevote {
 /// Numbers of clues that do not depend on units, the object's size or the sensor, each so that the
 /// log odds of a true pose are about linear in it (poses/confidence.hpp).
 enum Clue : std::size_t {
-  kAgreement,   ///< log odds of the points that take a side being for the pose
-  kRelief,      ///< log of how differently the supported normals point
-  kOutline,     ///< log of how much of the model's outline the scan's meets
-  kContinuity,  ///< in [0, 1]: share of the outline beyond which the scan does not go on
-  kVotes,       ///< log of votes per feature on the pose
-  kExactness,   ///< in [0, 1]: 1 if the residual is what other instances of the scan have
-  kSupport,     ///< log of how many model points are supported
+  kAgreement,  ///< log odds of the points that take a side being for the pose
+  kRelief,     ///< log of how differently the supported normals point
+  kOutline,    ///< log of how much of the model's outline the scan's meets
+  kOverhang,   ///< share of the outline beyond which the scan goes on, times kSupport
+  kVotes,      ///< log of votes per feature on the pose
+  kLead,       ///< log of its support over that of the best proposal elsewhere
+  kExactness,  ///< in [0, 1]: 1 if the residual is what other instances of the scan have
+  kSupport,    ///< log of how many model points are supported
   kClueCount
 };
 
 constexpr std::array<const char*, kClueCount> kClueNames{
-    "agreement", "relief", "outline", "continuity", "votes", "exactness", "support"};
+    "agreement", "relief", "outline", "overhang", "votes", "lead", "exactness", "support"};
 
 using Clues = std::array<double, kClueCount>;
 

@@ -29,7 +29,7 @@ struct NearSymmetry {
   }
 };
 
-/// What find_near_symmetries finds.
+/// What find_symmetries finds.
 struct NearSymmetries {
   std::vector<NearSymmetry> items;
 };

@@ -22,7 +22,8 @@
 namespace posevote::poses {
 
 struct Candidate {
-  Hypothesis proposed;  ///< before ICP
+  Hypothesis proposed;   ///< before ICP
+  double elsewhere = 0;  ///< support of the best proposal whose centre lies elsewhere
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Fit fit;
   double quality = 0;

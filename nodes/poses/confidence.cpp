@@ -12,6 +12,8 @@ namespace {
 /// Of true poses, so that it says nothing.
 constexpr double kUsualVotesPerFeature = 0.3;
 
+constexpr double kNoSupport = 1e-9;  // never divides by 0
+
 /// Beyond these bounds more is neither better nor worse.
 double bounded_log(double value, double low, double high) {
   return std::log(std::clamp(value, low, high));
@@ -19,17 +21,19 @@ double bounded_log(double value, double low, double high) {
 
 }  // namespace
 
-Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per_feature,
-               const FitTerms& terms) {
+Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   const FitShares shares = shares_of(fit, terms);
   Clues clues{};
   clues[kAgreement] = bounded_log(shares.agreement / (1.02 - shares.agreement), 0.1, 50);
   clues[kRelief] = bounded_log(fit.relief, 0.01, 0.7);
   clues[kOutline] = bounded_log(3 * shares.outline + 0.02, 0.02, 1.5);
-  clues[kContinuity] = shares.continuity;
-  clues[kVotes] = bounded_log(votes_per_feature.value_or(kUsualVotesPerFeature), 0.002, 3);
-  clues[kExactness] = exactness;
+  clues[kVotes] = bounded_log(backing.votes_per_feature.value_or(kUsualVotesPerFeature), 0.002, 3);
+  clues[kLead] = bounded_log(backing.lead, 0.1, 10);
+  clues[kExactness] = backing.exactness;
   clues[kSupport] = bounded_log(static_cast<double>(fit.supported) * fit.stands_for, 30, 20000);
+  // Of few points a surface that goes on may be noise, of many it is not: a bracket in the corner
+  // of a bin.
+  clues[kOverhang] = (1 - shares.continuity) * clues[kSupport];
   return clues;
 }
 
@@ -42,12 +46,13 @@ double confidence_of(const Clues& clues, const ConfidenceTerms& terms) {
 void believe(const Sought& sought, Candidate& candidate) {
   candidate.confidence = 0;
   if (!(candidate.quality > 0)) return;
-  std::optional<double> votes;
+  Backing backing{exactness(sought, candidate), std::nullopt,
+                  candidate.proposed.support / std::max(candidate.elsewhere, kNoSupport)};
   if (sought.votes_per_correspondence > 0) {
-    votes = votes_per_feature(sought, candidate);
-    candidate.consensus = consensus(*votes, sought.terms.score);
+    backing.votes_per_feature = votes_per_feature(sought, candidate);
+    candidate.consensus = consensus(*backing.votes_per_feature, sought.terms.score);
   }
-  candidate.clues = clues_of(candidate.fit, exactness(sought, candidate), votes, sought.terms.fit);
+  candidate.clues = clues_of(candidate.fit, backing, sought.terms.fit);
   candidate.confidence = confidence_of(candidate.clues, sought.terms.confidence);
 }
 

@@ -14,11 +14,19 @@
 
 namespace posevote::poses {
 
-/// Of a pose of quality > 0. `votes_per_feature`: none where support is not a count of votes (the
-/// rivals'), which is taken as what true poses usually have. How large the residual is says less of
-/// the pose than of the sensor; `exactness` compares it with that of the scan's other instances.
-Clues clues_of(const Fit& fit, double exactness, std::optional<double> votes_per_feature,
-               const FitTerms& terms = {});
+/// What speaks for a pose besides its fit.
+struct Backing {
+  /// How large the residual is says less of the pose than of the sensor, so it is compared with that
+  /// of the scan's other instances.
+  double exactness = 1;
+  /// None where support is not a count of votes (the rivals'), which is taken as what true poses
+  /// usually have.
+  std::optional<double> votes_per_feature;
+  double lead = 1;  ///< its support over that of the best proposal elsewhere
+};
+
+/// Of a pose of quality > 0.
+Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms = {});
 
 /// In [0, 1]: 1 / (1 + exp(-(offset + weights . clues))).
 double confidence_of(const Clues& clues, const ConfidenceTerms& terms);

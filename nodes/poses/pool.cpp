@@ -25,6 +25,15 @@ Separation judged_separation(const Sought& sought) {
           terms.judged_per_place};
 }
 
+/// The highest support of a proposal elsewhere; `proposals` in descending order of it.
+double support_elsewhere(const std::vector<Hypothesis>& proposals, const Eigen::Vector3f& center,
+                         float radius) {
+  const auto other = std::find_if(proposals.begin(), proposals.end(), [&](const Hypothesis& one) {
+    return (one.center - center).norm() > radius;
+  });
+  return other == proposals.end() ? 0 : other->support;
+}
+
 }  // namespace
 
 void TakenPlaces::take(const Model& model, const Candidate& instance) {
@@ -49,7 +58,10 @@ Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const Take
   sought.most_support = kSomeSupport;
   for (const std::size_t i :
        separate_poses(proposals, proposed_separation(sought), sought.params.candidates)) {
-    propose_as(sought, proposals[i], pool.emplace_back());
+    Candidate& candidate = pool.emplace_back();
+    propose_as(sought, proposals[i], candidate);
+    candidate.elsewhere =
+        support_elsewhere(proposals, proposals[i].center, kRunnerUpRadius * sought.model.diagonal);
     sought.most_support = std::max(sought.most_support, proposals[i].support);
   }
   return pool;

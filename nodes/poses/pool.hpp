@@ -13,6 +13,8 @@
 
 namespace posevote::poses {
 
+constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_density means
+
 /// The places of instances that were found; others of the object keep their distance.
 class TakenPlaces {
  public:

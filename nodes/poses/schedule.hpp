@@ -3,7 +3,7 @@
 //
 //   step             how many                    judged by
 //   glance           all that were collected     50 model points
-//   sketch           the shortlist, 80           300, after their proposer improved them
+//   sketch           the shortlist, 160          300, after their proposer improved them
 //   bring closer     the promising, 20           300, after the first steps of ICP
 //   look             those that may be finalists 1000
 //   refine           the finalists, 4, and twins 4000, after ICP

@@ -8,11 +8,9 @@
 
 namespace posevote::poses {
 
-constexpr float kRunnerUpRadius = 0.2F;  // x diagonal; part of what runner_up_density means
-
 struct SegmentParams {
   int max_instances = 20;
-  int candidates = 1000;
+  int candidates = 4000;
   double nms = 0.1;
   double min_confidence = 0.5;
   double min_score = 0.1;

@@ -15,7 +15,7 @@ namespace posevote::poses {
 
 /// How many poses get how much attention (schedule.hpp).
 struct ScheduleTerms {
-  int shortlist = 80, promising = 20, finalists = 4;
+  int shortlist = 160, promising = 20, finalists = 4;
   int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
   double hopeless = 0.25;
 };
@@ -50,9 +50,9 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as `posevote calibrate`
 /// found them on configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -32.47;
+  double offset = -22.24;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{0.9585, 0.9961, 1.877, 16.24, 0.6297, 12.14, 1.432};
+  Clues weights{1.249, 1.37, 2.128, -2.795, 0.684, 0.107, 16.64, 1.783};
 };
 
 /// How far it is refined (refinement.hpp).

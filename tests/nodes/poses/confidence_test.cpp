@@ -21,8 +21,8 @@ poses::Fit good_fit() {
   return fit;
 }
 
-double believed(const poses::Fit& fit, double exactness = 1, double votes = 0.5) {
-  return poses::confidence_of(poses::clues_of(fit, exactness, votes), {});
+double believed(const poses::Fit& fit, const poses::Backing& backing = {1, 0.5, 2}) {
+  return poses::confidence_of(poses::clues_of(fit, backing), {});
 }
 
 }  // namespace
@@ -42,16 +42,18 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   fit = good_fit();
   fit.supported = fit.facing = 40, fit.ends = 16;
   CHECK(believed(fit) < usual);
-  CHECK(believed(good_fit(), 0.6) < usual);
-  CHECK(believed(good_fit(), 1, 0.01) < usual);
+  CHECK(believed(good_fit(), {0.6, 0.5, 2}) < usual);
+  CHECK(believed(good_fit(), {1, 0.01, 2}) < usual);
+  CHECK(believed(good_fit(), {1, 0.5, 0.5}) < usual);
 }
 
 TEST_CASE("a sample of the points makes the same clues", "[poses]") {
   poses::Fit sample = good_fit();
   sample.facing = sample.supported = 100, sample.ends = 40;
   sample.stands_for = 10;
-  const Clues all = poses::clues_of(good_fit(), 1, 0.5);
-  const Clues few = poses::clues_of(sample, 1, 0.5);
+  const poses::Backing backing{1, 0.5, 2};
+  const Clues all = poses::clues_of(good_fit(), backing);
+  const Clues few = poses::clues_of(sample, backing);
   for (std::size_t i = 0; i < kClueCount; ++i) CHECK(few[i] == Approx(all[i]));
 }
 

@@ -33,6 +33,8 @@ TEST_CASE("proposals that lie apart become candidates, at most so many", "[poses
   const poses::Candidates pool = poses::collect(sought, proposals, none);
   CHECK(supports(pool) == Supports{9, 7, 6, 5});
   CHECK(sought.most_support == 9);
+  CHECK(pool[0].elsewhere == 5);  // others lie within a fifth of the diagonal
+  CHECK(pool[3].elsewhere == 9);
   CHECK(pool[0].T_scene_model.isApprox(beside(0), 1e-5));
   body.params.terms.pool.proposed_fineness = 10;
   CHECK(supports(poses::collect(sought, proposals, none)) == Supports{9, 8, 7, 6, 5});
