@@ -1,21 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/separation.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
 namespace posevote::poses {
 namespace {
 
-/// `better`: numbers of poses.
-bool is_suppressed(const Hypothesis& pose, const std::vector<Hypothesis>& poses,
-                   const std::vector<std::size_t>& better, const Separation& separation) {
-  int here = 0;
-  for (const std::size_t i : better) {
-    const Hypothesis& other = poses[i];
-    if ((pose.center - other.center).norm() > separation.distance) continue;
-    if (pose.rotation.angularDistance(other.rotation) <= separation.angle) return true;
-    if (++here == separation.per_place) return true;
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    std::uint64_t mixed = 0;
+    for (const std::int64_t i : cell)
+      mixed = (mixed ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ULL;
+    return static_cast<std::size_t>(mixed ^ (mixed >> 32));
   }
-  return false;
-}
+};
+
+/// Poses by where their centres lie: those within `separation.distance` of another lie in its cell
+/// or beside it.
+class Places {
+ public:
+  Places(const std::vector<Hypothesis>& poses, const Separation& separation)
+      : poses_(poses),
+        separation_(separation),
+        edge_(std::max(kMargin * static_cast<double>(separation.distance), kLeastEdge)) {}
+
+  void add(std::size_t i) { cells_[cell_of(poses_[i].center)].push_back(i); }
+
+  /// Whether one that was added is like it, or as many as a place may hold lie there.
+  bool suppress(const Hypothesis& pose) const {
+    const Cell middle = cell_of(pose.center);
+    int here = 0;
+    for (std::int64_t x = -1; x <= 1; ++x)
+      for (std::int64_t y = -1; y <= 1; ++y)
+        for (std::int64_t z = -1; z <= 1; ++z) {
+          const auto cell = cells_.find({middle[0] + x, middle[1] + y, middle[2] + z});
+          if (cell != cells_.end() && suppressed_by(cell->second, pose, here)) return true;
+        }
+    return false;
+  }
+
+ private:
+  static constexpr double kMargin = 1.001;    // for what rounding does at a distance of just one
+  static constexpr double kLeastEdge = 1e-6;  // [m]
+
+  Cell cell_of(const Eigen::Vector3f& center) const {
+    const auto index = [this](float x) {
+      return static_cast<std::int64_t>(std::floor(static_cast<double>(x) / edge_));
+    };
+    return {index(center.x()), index(center.y()), index(center.z())};
+  }
+
+  bool suppressed_by(const std::vector<std::size_t>& others, const Hypothesis& pose,
+                     int& here) const {
+    return std::any_of(others.begin(), others.end(), [&](std::size_t i) {
+      if ((pose.center - poses_[i].center).norm() > separation_.distance) return false;
+      return pose.rotation.angularDistance(poses_[i].rotation) <= separation_.angle ||
+             ++here == separation_.per_place;
+    });
+  }
+
+  const std::vector<Hypothesis>& poses_;
+  const Separation& separation_;
+  double edge_;  ///< of a cell [m]
+  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
+};
 
 }  // namespace
 
@@ -26,9 +80,13 @@ bool is_like(const Hypothesis& a, const Hypothesis& b, const Separation& separat
 
 std::vector<std::size_t> separate_poses(const std::vector<Hypothesis>& poses,
                                         const Separation& separation, std::size_t count) {
+  Places places(poses, separation);
   std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < poses.size() && kept.size() < count; ++i)
-    if (!is_suppressed(poses[i], poses, kept, separation)) kept.push_back(i);
+  for (std::size_t i = 0; i < poses.size() && kept.size() < count; ++i) {
+    if (places.suppress(poses[i])) continue;
+    places.add(i);
+    kept.push_back(i);
+  }
   return kept;
 }
 

@@ -2,6 +2,7 @@
 #include "nodes/poses/separation.hpp"
 
 #include <catch2/catch.hpp>
+#include <random>
 
 using namespace posevote;
 using namespace posevote::poses;
@@ -42,6 +43,29 @@ TEST_CASE("a place may be judged in some quite different rotations", "[poses]") 
   CHECK(poses::separate_poses(poses, {1.0F, sixty, 3}, 9) == Numbers{0, 2, 4});
   CHECK(poses::separate_poses(poses, {1.0F, sixty, 9}, 9) == Numbers{0, 2, 4, 5});
   CHECK(poses::separate_poses(poses, {1.0F, sixty / 2, 9}, 9) == Numbers{0, 1, 2, 3, 4, 5});
+}
+
+TEST_CASE("cells leave out what a comparison of all with all does", "[poses]") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-0.1F, 0.1F), degrees(0, 360);
+  std::vector<Hypothesis> poses;
+  for (int i = 0; i < 600; ++i) {
+    poses.push_back(turned(degrees(random)));
+    poses.back().center = {place(random), place(random), place(random)};
+  }
+  const Separation separation{0.05F, 0.7F, 4};
+  Numbers expected;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    int here = 0;
+    bool like = false;
+    for (const std::size_t j : expected) {
+      like = like || is_like(poses[i], poses[j], separation);
+      here += (poses[i].center - poses[j].center).norm() <= separation.distance ? 1 : 0;
+    }
+    if (!like && here < separation.per_place) expected.push_back(i);
+  }
+  CHECK(expected.size() > 50);
+  CHECK(separate_poses(poses, separation, 600) == expected);
 }
 
 TEST_CASE("poses are alike that neither lie apart nor are turned", "[poses]") {
