@@ -111,10 +111,10 @@ ModelFiles list_models(const std::vector<std::string>& arguments) {
   for (const auto& [obj_id, path] : as_arguments([&] { return layouts::number_models(files); })) {
     models.push_back({path, obj_id, path.stem().string()});
     const fs::path info = path.parent_path() / "models_info.json";
-    if (!known.contains(info))
-      known[info] = as_arguments([&] { return layouts::known_symmetries(info); });
-    const auto said = known[info].find(obj_id);
-    if (said != known[info].end()) models.back().symmetries = said->second;
+    const auto [beside, is_new] = known.try_emplace(info);
+    if (is_new) beside->second = as_arguments([&] { return layouts::known_symmetries(info); });
+    const auto said = beside->second.find(obj_id);
+    if (said != beside->second.end()) models.back().symmetries = said->second;
   }
   return models;
 }

@@ -1,36 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/symmetry_report.hpp"
 
-#include <cstdio>
 #include <numbers>
+
+#include "tools/text.hpp"
 
 namespace posevote {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-template <class... Numbers>
-std::string line(const char* format, Numbers... numbers) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
-
 std::string direction(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d rounded = (axis * 1000).array().round() / 1000 + 0.0;  // of -0 makes 0
-  return line("(%g %g %g)", rounded.x(), rounded.y(), rounded.z());
+  return format("(%g %g %g)", rounded.x(), rounded.y(), rounded.z());
 }
 
 std::string turn(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd about(rotation);
-  return line("a turn of %.0f deg about ", about.angle() / kDegree) + direction(about.axis());
+  return format("a turn of %.0f deg about ", about.angle() / kDegree) + direction(about.axis());
 }
 
 std::string near_line(const NearSymmetry& near, const Model& model) {
   const auto differing = static_cast<double>(near.carried_off.size() + near.uncovered.size());
   return "  near: " + turn(near.motion.linear()) +
-         line("; %.0f %% of the surface tells\n",
-              100 * differing / (2 * static_cast<double>(model.cloud.points.rows())));
+         format("; %.0f %% of the surface tells\n",
+                100 * differing / (2 * static_cast<double>(model.cloud.points.rows())));
 }
 
 }  // namespace
@@ -41,7 +35,7 @@ std::string symmetry_report(const Model& model) {
   const Eigen::Vector3d point = 1000 * symmetries.fixed_point.cast<double>();
   std::string text;
   if (symmetries.any())
-    text += line("  about the point (%.1f %.1f %.1f) mm:\n", point.x(), point.y(), point.z());
+    text += format("  about the point (%.1f %.1f %.1f) mm:\n", point.x(), point.y(), point.z());
   for (const Eigen::Vector3f& axis : symmetries.axes)
     text += "  any turn about " + direction(axis.cast<double>()) + "\n";
   for (std::size_t i = 1; i < symmetries.turns.size(); ++i)

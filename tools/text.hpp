@@ -2,10 +2,19 @@
 // Text that comes from elsewhere: file names, tables, messages.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
 namespace posevote {
+
+/// As printf writes it, 319 characters at most.
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[320];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
 
 /// The parts between separators: one more than there are separators, none of an empty text.
 std::vector<std::string> split(const std::string& text, char separator);

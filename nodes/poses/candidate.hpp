@@ -21,6 +21,8 @@
 
 namespace posevote::poses {
 
+constexpr double kSomeSupport = 1e-9;  ///< at least, where support divides
+
 struct Candidate {
   Hypothesis proposed;   ///< before ICP
   double elsewhere = 0;  ///< support of the best proposal whose centre lies elsewhere

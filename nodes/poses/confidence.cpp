@@ -12,8 +12,6 @@ namespace {
 /// Of true poses, so that it says nothing.
 constexpr double kUsualVotesPerFeature = 0.3;
 
-constexpr double kNoSupport = 1e-9;  // never divides by 0
-
 /// Beyond these bounds more is neither better nor worse.
 double bounded_log(double value, double low, double high) {
   return std::log(std::clamp(value, low, high));
@@ -47,7 +45,7 @@ void believe(const Sought& sought, Candidate& candidate) {
   candidate.confidence = 0;
   if (!(candidate.quality > 0)) return;
   Backing backing{exactness(sought, candidate), std::nullopt,
-                  candidate.proposed.support / std::max(candidate.elsewhere, kNoSupport)};
+                  candidate.proposed.support / std::max(candidate.elsewhere, kSomeSupport)};
   if (sought.votes_per_correspondence > 0) {
     backing.votes_per_feature = votes_per_feature(sought, candidate);
     candidate.consensus = consensus(*backing.votes_per_feature, sought.terms.score);

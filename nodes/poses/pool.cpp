@@ -25,16 +25,16 @@ Separation judged_separation(const Sought& sought) {
           terms.judged_per_place};
 }
 
-/// The highest support of a proposal elsewhere; `proposals` in descending order of it.
+}  // namespace
+
 double support_elsewhere(const std::vector<Hypothesis>& proposals, const Eigen::Vector3f& center,
-                         float radius) {
+                         const Model& model) {
+  const float radius = kRunnerUpRadius * model.diagonal;
   const auto other = std::find_if(proposals.begin(), proposals.end(), [&](const Hypothesis& one) {
     return (one.center - center).norm() > radius;
   });
   return other == proposals.end() ? 0 : other->support;
 }
-
-}  // namespace
 
 void TakenPlaces::take(const Model& model, const Candidate& instance) {
   centers_.push_back(instance.proposed.center);
@@ -52,7 +52,6 @@ bool TakenPlaces::is_clear(const Model& model, const Eigen::Isometry3d& T_scene_
 }
 
 Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken) {
-  constexpr double kSomeSupport = 1e-9;  // never divides by 0
   std::erase_if(proposals, [&](const Hypothesis& one) { return !taken.is_clear(one.center); });
   Candidates pool;
   sought.most_support = kSomeSupport;
@@ -60,8 +59,7 @@ Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const Take
        separate_poses(proposals, proposed_separation(sought), sought.params.candidates)) {
     Candidate& candidate = pool.emplace_back();
     propose_as(sought, proposals[i], candidate);
-    candidate.elsewhere =
-        support_elsewhere(proposals, proposals[i].center, kRunnerUpRadius * sought.model.diagonal);
+    candidate.elsewhere = support_elsewhere(proposals, proposals[i].center, sought.model);
     sought.most_support = std::max(sought.most_support, proposals[i].support);
   }
   return pool;

@@ -30,6 +30,11 @@ class TakenPlaces {
   std::vector<Eigen::Vector3f> centers_;
 };
 
+/// The highest support of a proposal whose centre lies elsewhere, 0 where none does; `proposals` in
+/// descending order of support.
+double support_elsewhere(const std::vector<Hypothesis>& proposals, const Eigen::Vector3f& center,
+                         const Model& model);
+
 /// Candidates of those proposals, the best supported first, whose place is clear and that are
 /// separate from better ones, params.candidates at most; sets most_support.
 Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken);

@@ -6,24 +6,11 @@
 // that it came from.
 //
 //   segment_hypotheses: {in: [hypotheses, scene_features, scene_cloud, scale], out: detections}
-#include <algorithm>
-
 #include "nodes/data/hypotheses.hpp"
 #include "nodes/poses/segment_params.hpp"
 
 namespace posevote::segment {
 namespace {
-
-/// The best support of a hypothesis elsewhere.
-double runner_up_support(const Hypotheses& object, const Hypothesis& chosen) {
-  double best = 0;
-  for (const Hypothesis& hypothesis : object.items) {
-    const float distance = (hypothesis.center - chosen.center).norm();
-    if (distance > poses::kRunnerUpRadius * object.model->diagonal)
-      best = std::max(best, hypothesis.support);
-  }
-  return best;
-}
 
 poses::Proposals propose_from(const Hypotheses& object) {
   return {[&object] { return object.items; },
@@ -50,7 +37,8 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
     Detection& detection =
         found.items.emplace_back(poses::make_detection(*object.model, instance.candidate));
     detection.density = instance.candidate.proposed.support;
-    detection.runner_up_density = runner_up_support(object, instance.candidate.proposed);
+    detection.runner_up_density =
+        poses::support_elsewhere(object.items, instance.candidate.proposed.center, *object.model);
   }
   return found;
 }

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The text of an evaluation.
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <sstream>
 
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/text.hpp"
 
 namespace posevote {
 namespace {
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 std::string number(double value, int digits) {
   return std::isnan(value) ? "-" : format("%.*f", digits, value);

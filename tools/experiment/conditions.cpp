@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/experiment/conditions.hpp"
 
-#include <cstdio>
 #include <set>
 
 #include "tools/plot/line_chart.hpp"
 #include "tools/simulate/spec.hpp"
+#include "tools/text.hpp"
 
 namespace posevote {
 namespace {
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[120];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 /// The images of each kind, numbered as the simulation numbers them.
 std::map<Conditions, std::set<int>> images_by_conditions(const Spec& spec, std::size_t step) {

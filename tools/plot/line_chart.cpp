@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "tools/text.hpp"
@@ -16,13 +15,6 @@ constexpr double kWidth = 460, kHeight = 380, kLeft = 62, kRight = 18, kTop = 36
 // Okabe and Ito's colours, which the colour-blind can tell apart; dark ones first.
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                               "#e69f00", "#56b4e9", "#000000", "#888888"};
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[320];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 /// Values to a length in pixels.
 class Axis {
