@@ -45,7 +45,8 @@ struct PipelineDescription {
   Location models_where;
   std::vector<Wire> inputs;  ///< streams that come with each frame
   Location inputs_where;
-  Wire result;  ///< the stream that a frame leaves with
+  Wire result;                ///< the stream that a frame leaves with
+  std::vector<Wire> plugins;  ///< libraries with nodes of it (graph/plugin.hpp)
   std::vector<NodeDescription> nodes;
 };
 
@@ -59,7 +60,8 @@ struct Override {
 /// A config: a pipeline's name and the values that differ from its defaults.
 struct ConfigDescription {
   std::string pipeline;
-  Location where;  ///< of the pipeline's name
+  Location where;             ///< of the pipeline's name
+  std::vector<Wire> plugins;  ///< libraries with nodes of it (graph/plugin.hpp)
   std::vector<Override> overrides;
 };
 

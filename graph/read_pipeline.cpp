@@ -116,6 +116,8 @@ void read_key(const Reader& reader, const std::string& key, const Location& at,
     pipeline.inputs_where = reader.at(value);
   } else if (key == "result") {
     pipeline.result = {"", reader.scalar(value, at, key), reader.at(value)};
+  } else if (key == "plugins") {
+    pipeline.plugins = reader.wires(value, at, key);
   } else if (key == "nodes") {
     read_nodes(reader, value, at, pipeline);
   } else if (key == "replace") {
@@ -125,13 +127,13 @@ void read_key(const Reader& reader, const std::string& key, const Location& at,
   } else if (key == "remove") {
     written.variation.removed = reader.wires(value, at, key);
   } else {
-    const std::vector<std::string> known{"extends", "models",  "inputs", "result",
+    const std::vector<std::string> known{"extends", "models",  "inputs", "result", "plugins",
                                          "nodes",   "replace", "insert", "remove"};
     const std::string near = detail::did_you_mean(key, known);
     reader.report(
         at, key,
-        "unknown key" + (near.empty() ? ", expected extends, models, inputs, result, nodes, "
-                                        "replace, insert or remove"
+        "unknown key" + (near.empty() ? ", expected extends, models, inputs, result, plugins, "
+                                        "nodes, replace, insert or remove"
                                       : near));
   }
 }
@@ -179,6 +181,7 @@ class Flattener {
     if (!own.inputs.empty())
       std::tie(flat.inputs, flat.inputs_where) = {own.inputs, own.inputs_where};
     if (!own.result.stream.empty()) flat.result = own.result;
+    flat.plugins.insert(flat.plugins.end(), own.plugins.begin(), own.plugins.end());
     return flat;
   }
 

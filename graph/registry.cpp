@@ -4,35 +4,79 @@
 #include <cxxabi.h>
 
 #include <cstdlib>
+#include <list>
 #include <map>
+#include <mutex>
 #include <stdexcept>
+
+#include "graph/plugin.hpp"
 
 namespace posevote::graph {
 namespace {
 
-std::map<std::string, NodeSpec>& registry() {
-  static std::map<std::string, NodeSpec> nodes;  // filled before main by the nodes' own files
-  return nodes;
+struct Registry {
+  std::recursive_mutex mutex;  ///< a library registers its nodes while it is being loaded
+  std::map<std::string, NodeSpec> nodes;
+  bool loads = false;
+  std::list<NodeSpec> taken;  ///< of the library that is being loaded: names that others have
+};
+
+/// Filled before main by the nodes' own files, and later by plugins.
+Registry& registry() {
+  static Registry all;
+  return all;
+}
+
+const NodeSpec* find_loaded(const std::string& name) {
+  const std::lock_guard lock(registry().mutex);
+  const auto found = registry().nodes.find(name);
+  return found == registry().nodes.end() ? nullptr : &found->second;
 }
 
 }  // namespace
 
+namespace detail {
+
+std::vector<std::string> names_taken(const std::function<void()>& load) {
+  const std::lock_guard lock(registry().mutex);
+  registry().loads = true;
+  registry().taken.clear();
+  load();
+  registry().loads = false;
+  std::vector<std::string> names;
+  for (const NodeSpec& spec : registry().taken) names.push_back(spec.name);
+  return names;
+}
+
+std::size_t count_nodes() {
+  const std::lock_guard lock(registry().mutex);
+  return registry().nodes.size();
+}
+
+}  // namespace detail
+
 const NodeSpec* find_node(const std::string& name) {
-  const auto found = registry().find(name);
-  return found == registry().end() ? nullptr : &found->second;
+  if (const NodeSpec* known = find_loaded(name)) return known;
+  detail::load_bundled();
+  return find_loaded(name);
 }
 
 std::vector<const NodeSpec*> all_nodes() {
+  detail::load_bundled();
+  const std::lock_guard lock(registry().mutex);
   std::vector<const NodeSpec*> nodes;
-  for (const auto& [name, spec] : registry()) nodes.push_back(&spec);
+  for (const auto& [name, spec] : registry().nodes) nodes.push_back(&spec);
   return nodes;
 }
 
 NodeSpec& add_node(NodeSpec spec) {
+  const std::lock_guard lock(registry().mutex);
   const std::string name = spec.name;
-  const auto [place, added] = registry().emplace(name, std::move(spec));
-  if (!added) throw std::logic_error("two nodes are registered as '" + name + "'");
-  return place->second;
+  const auto place = registry().nodes.find(name);
+  if (place == registry().nodes.end())
+    return registry().nodes.emplace(name, std::move(spec)).first->second;
+  if (!registry().loads) throw std::logic_error("two nodes are registered as '" + name + "'");
+  return registry().taken.emplace_back(std::move(spec));  // nothing can be thrown through a loader
 }
 
 std::string type_name(const std::type_info& type) {

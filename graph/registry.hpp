@@ -38,6 +38,15 @@
 #include "graph/schema.hpp"
 #include "graph/value.hpp"
 
+// A plugin is built against one ABI of posevote, whose name CMake gives: with any other the loader
+// refuses it, before anything of it runs.
+#ifdef POSEVOTE_ABI
+extern "C" const char POSEVOTE_ABI;
+namespace {
+[[gnu::used]] const char* const posevote_abi = &POSEVOTE_ABI;
+}
+#endif
+
 namespace posevote::graph {
 
 struct Port {
@@ -75,11 +84,12 @@ struct NodeSpec {
   }
 };
 
-/// The node type of that name, or null.
+/// The node type of that name, or null. One that is not known yet is looked for in the libraries
+/// that come with the program (graph/plugin.hpp).
 const NodeSpec* find_node(const std::string& name);
-/// All node types in alphabetical order.
+/// All node types in alphabetical order, those of these libraries included.
 std::vector<const NodeSpec*> all_nodes();
-/// Adds a node type; a second one of the same name is a std::logic_error.
+/// Adds a node type; a second one of the same name is a std::logic_error, from a plugin load_plugin's.
 NodeSpec& add_node(NodeSpec spec);
 
 namespace detail {

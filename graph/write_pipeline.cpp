@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <yaml-cpp/yaml.h>
 
+#include "graph/plugin.hpp"
 #include "graph/schema.hpp"
 #include "graph/yaml_reader.hpp"
 
@@ -60,6 +61,11 @@ std::string to_yaml(const PipelineDescription& pipeline) {
   YAML::Emitter out;
   out << YAML::BeginMap;
   if (!pipeline.models.empty()) out << YAML::Key << "models" << YAML::Value << pipeline.models;
+  if (!pipeline.plugins.empty()) {
+    out << YAML::Key << "plugins" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const Wire& plugin : pipeline.plugins) out << file_of(plugin);
+    out << YAML::EndSeq;
+  }
   out << YAML::Key << "inputs" << YAML::Value;
   emit(out, pipeline.inputs);
   out << YAML::Key << "result" << YAML::Value << pipeline.result.stream;

@@ -20,6 +20,10 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
           config.where = reader.at(body);
           return;
         }
+        if (node == "plugins") {
+          config.plugins = reader.wires(body, at, node);
+          return;
+        }
         if (!body.IsMap())
           return reader.report(at, node, "expected the node's parameters, as in {unit: mm}");
         reader.for_each(

@@ -49,7 +49,8 @@ PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>&
 /// The pipeline as one file without `extends`.
 std::string to_yaml(const PipelineDescription& pipeline);
 
-/// Reads `configs/NAME.yaml`: `pipeline: NAME` and, per node, the parameters that differ.
+/// Reads `configs/NAME.yaml`: `pipeline: NAME` and, per node, the parameters that differ; `plugins:
+/// [libmine.so]`, as in a pipeline, names libraries that hold nodes of it, from the file's folder.
 ConfigDescription read_config(const std::string& file, std::vector<Problem>& problems);
 
 /// True where the file describes a pipeline itself (it has `nodes` or `extends`), not a config.

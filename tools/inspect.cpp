@@ -9,8 +9,8 @@
 
 #include "graph/registry.hpp"
 #include "graph/yaml_reader.hpp"
+#include "pipelines/configuration.hpp"
 #include "tools/commands.hpp"
-#include "tools/configuration.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {

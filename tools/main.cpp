@@ -8,7 +8,10 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "graph/plugin.hpp"
 #include "graph/problem.hpp"
+#include "graph/schema.hpp"
+#include "pipelines/recognizer.hpp"
 #include "tools/command_line.hpp"
 
 namespace {
@@ -38,6 +41,22 @@ int run(const std::function<int()>& command) {
   return 2;
 }
 
+/// A misspelt command is told with the one that was meant.
+int refuse_without_command(const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CommandEntry& entry : all_commands()) known.push_back(entry.name);
+  const std::vector<std::string> left = app.remaining();
+  if (left.empty()) {
+    std::cerr << app.help();
+    return 2;
+  }
+  const std::string near = graph::closest_name(left.front(), known);
+  std::cerr << "no command is called '" << left.front() << "'"
+            << (near.empty() ? "; `posevote --help` lists them" : ", did you mean '" + near + "'?")
+            << "\n";
+  return 2;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -45,10 +64,17 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("posevote"));
   spdlog::set_pattern("%^%l%$: %v");
   CLI::App app("posevote finds known 3D objects in 3D scans.");
-  app.require_subcommand(1);
+  app.set_version_flag("--version", "posevote " + version());
+  std::vector<std::string> plugins;
+  app.add_option("--plugin", plugins, "A shared library with nodes of one's own (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.require_subcommand(0, 1);
+  app.allow_extras();
   std::function<int()> chosen;
   for (const CommandEntry& entry : all_commands()) {
     CLI::App* command = app.add_subcommand(entry.name, entry.help);
+    command->fallthrough();  // so that --plugin may stand behind it
     command->callback([&chosen, run_it = entry.add(*command)] { chosen = run_it; });
   }
   try {
@@ -56,5 +82,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return run(chosen);
+  if (!chosen) return refuse_without_command(app);
+  return run([&] {
+    for (const std::string& plugin : plugins) graph::load_plugin(plugin);
+    return chosen();
+  });
 }

@@ -14,10 +14,10 @@
 #include "nodes/descriptors/descriptor_index.hpp"
 #include "nodes/formats/results_writer.hpp"
 #include "nodes/library/library_file.hpp"
+#include "pipelines/inputs.hpp"
+#include "pipelines/library.hpp"
+#include "pipelines/overrides.hpp"
 #include "tools/commands.hpp"
-#include "tools/inputs.hpp"
-#include "tools/library.hpp"
-#include "tools/overrides.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {

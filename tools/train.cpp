@@ -2,10 +2,10 @@
 #include <iostream>
 
 #include "nodes/library/library_file.hpp"
+#include "pipelines/inputs.hpp"
+#include "pipelines/library.hpp"
+#include "pipelines/overrides.hpp"
 #include "tools/commands.hpp"
-#include "tools/inputs.hpp"
-#include "tools/library.hpp"
-#include "tools/overrides.hpp"
 #include "tools/symmetry_report.hpp"
 
 namespace posevote {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a frame begins with: the file to load, and what is known about it before it is read.
+// What a frame begins with: the file to load, and what is known about it before it is read. A
+// program that has the scan or the model in memory hands it over in the file's place.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "nodes/data/cloud.hpp"
 #include "nodes/data/symmetries.hpp"
 
 namespace posevote {
@@ -17,12 +21,26 @@ struct Camera {
   double depth_scale = 1;                 ///< raw depth value x depth_scale = depth in mm
 };
 
+/// A point file's content.
+struct LoadedPoints {
+  Scan scan;  ///< in the file's unit
+  bool knows_sensor = false;
+};
+
+/// A depth image's content, row by row.
+struct LoadedDepth {
+  std::size_t width = 0, height = 0;
+  std::vector<float> depths;  ///< [m]; 0 or not finite: no measurement
+};
+
 /// One scan of a batch.
 struct SceneFile {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< with the scan in memory: its name in messages
   int scene_id = 0;
   int im_id = 0;
   std::optional<Camera> camera;  ///< given where the data set says it; else load_scene's parameters
+  std::shared_ptr<const LoadedPoints> points{};  ///< in the file's place, or null
+  std::shared_ptr<const LoadedDepth> depth{};    ///< the same of a depth image
 };
 
 /// One object model.
@@ -32,6 +50,7 @@ struct ModelFile {
   std::string name;  ///< file stem, the name in reports
   std::optional<Symmetries>
       symmetries{};  ///< as a models_info.json beside it says; else they are found
+  std::shared_ptr<const Mesh> mesh{};  ///< in the file's place and unit, or null
 };
 
 using ModelFiles = std::vector<ModelFile>;

@@ -5,7 +5,7 @@
 // 127 ms where this takes 17 (ascii).
 //
 // VIEWPOINT's translation becomes the view's origin; its rotation says nothing about the points.
-#include <pcl/io/lzf.h>
+#include <liblzf/lzf.h>
 
 #include <stdexcept>
 #include <utility>
@@ -124,7 +124,7 @@ std::vector<char> decompress(std::string_view data, const PcdHeader& header) {
                              " bytes, expected " + std::to_string(expected) + " from the header");
   check_room(unpacked, "unpacked bytes", 1, kMostRatio * packed);
   std::vector<char> out(unpacked);
-  if (pcl::lzfDecompress(data.data(), packed, out.data(), unpacked) != unpacked)
+  if (lzf_decompress(data.data(), packed, out.data(), unpacked) != unpacked)
     throw std::runtime_error("the compressed data is damaged");
   return out;
 }

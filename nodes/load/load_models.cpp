@@ -27,12 +27,20 @@ struct Params {
   std::string unit = "m";
 };
 
-Mesh load_model(const std::filesystem::path& file, const graph::FrameContext& context,
+/// From the file, or from memory.
+Mesh read_model(const ModelFile& file, double metres) {
+  if (!file.mesh) return formats::read_mesh(file.path, metres);
+  Mesh model = *file.mesh;
+  model.points = (model.points.cast<double>() * metres).cast<float>();
+  return model;
+}
+
+Mesh load_model(const ModelFile& file, const graph::FrameContext& context,
                 const std::string& unit) {
-  Mesh model = formats::read_mesh(file, formats::metres_per(unit));
+  Mesh model = read_model(file, formats::metres_per(unit));
   const double diagonal = geometry::model_diagonal(model.points);  // one without fails here, named
   const std::string odd = formats::odd_model_size(diagonal, unit);
-  if (!odd.empty()) context.warn(file.string() + ": " + odd);
+  if (!odd.empty()) context.warn(file.path.string() + ": " + odd);
   return model;
 }
 
@@ -42,7 +50,7 @@ std::string likely_unit(const ModelFiles& files, const graph::FrameContext& cont
   std::vector<double> sizes(files.size());
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
-      sizes[i] = geometry::model_diagonal(formats::read_mesh(files[i].path, 1).points);
+      sizes[i] = geometry::model_diagonal(read_model(files[i], 1).points);
     } catch (const std::exception&) {  // is told below, with the others
     }
   });
@@ -62,7 +70,7 @@ PerObject<Mesh> load_models(const ModelFiles& files, const graph::FrameContext& 
   std::vector<std::string> problems(files.size());
   graph::parallel_for(files.size(), 1, [&](std::size_t i) {
     try {
-      models.slots[i] = std::make_shared<const Mesh>(load_model(files[i].path, context, unit));
+      models.slots[i] = std::make_shared<const Mesh>(load_model(files[i], context, unit));
     } catch (const std::exception& error) {
       problems[i] = error.what();
     }

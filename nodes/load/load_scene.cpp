@@ -69,10 +69,11 @@ Eigen::Isometry3d read_pose(const std::filesystem::path& file) {
 }
 
 /// Where the sensor stood, if that is said outside the file, in the file's unit.
-std::optional<Eigen::Vector3d> said_viewpoint(const std::filesystem::path& scan,
-                                              const Params& params) {
+std::optional<Eigen::Vector3d> said_viewpoint(const SceneFile& file, const Params& params) {
+  if (file.points && file.points->knows_sensor) return file.points->scan.view.origin.cast<double>();
   if (!params.sensor_pose.empty()) return formats::sensor_pose(params.sensor_pose).translation();
-  const std::filesystem::path beside = formats::pose_file_of(scan);
+  if (file.points) return std::nullopt;
+  const std::filesystem::path beside = formats::pose_file_of(file.path);
   if (std::filesystem::exists(std::filesystem::symlink_status(beside)))
     return read_pose(beside).translation();
   return std::nullopt;
@@ -128,11 +129,20 @@ std::string check_viewpoint(Scan& scan, bool is_said) {
          "did by --sensor-pose (--sensor-pose '0 0 0' if there)";
 }
 
+/// The points, in metres.
+Scan read_points(const SceneFile& file, double metres) {
+  if (!file.points) return formats::read_scan(file.path, metres);
+  Scan scan = file.points->scan;
+  scan.points = (scan.points.cast<double>() * metres).cast<float>();
+  scan.view.origin = (scan.view.origin.cast<double>() * metres).cast<float>();
+  return scan;
+}
+
 /// The unit in which the scan is of a size that scans have.
-std::string likely_unit(const std::filesystem::path& file, const graph::FrameContext& context) {
+std::string likely_unit(const SceneFile& file, const graph::FrameContext& context) {
   constexpr double kLeastInMillimetres = 30;  // the largest scenes in m, the smallest in mm
   constexpr double kOutliers = 0.02;
-  const Scan scan = formats::read_scan(file, 1);
+  const Scan scan = read_points(file, 1);
   if (scan.points.rows() == 0) return "m";  // refused later
   const formats::LikelyUnit likely =
       formats::likely_unit(geometry::robust_diagonal(scan.points, kOutliers), kLeastInMillimetres);
@@ -141,12 +151,11 @@ std::string likely_unit(const std::filesystem::path& file, const graph::FrameCon
   return likely.unit;
 }
 
-Scan load_points(const std::filesystem::path& file, const graph::FrameContext& context,
-                 const Params& params) {
+Scan load_points(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
   const double metres =
       formats::metres_per(params.unit == "auto" ? likely_unit(file, context) : params.unit);
   const std::optional<Eigen::Vector3d> viewpoint = said_viewpoint(file, params);
-  Scan scan = formats::read_scan(file, metres);
+  Scan scan = read_points(file, metres);
   if (viewpoint) scan.view.origin = (*viewpoint * metres).cast<float>();
   if (!scan.view.origin.allFinite())
     throw std::runtime_error("the sensor's pose is too far away to be told in metres");
@@ -156,14 +165,17 @@ Scan load_points(const std::filesystem::path& file, const graph::FrameContext& c
 }
 
 Scan load_file(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
-  if (!formats::has_ending(file.path, formats::Wanted::kDepthImages))
-    return load_points(file.path, context, params);
+  if (file.points ||
+      (!file.depth && !formats::has_ending(file.path, formats::Wanted::kDepthImages)))
+    return load_points(file, context, params);
   if (!params.sensor_pose.empty())
     throw std::runtime_error(
         "a depth image is in its sensor's own frame: load_scene.sensor_pose (--sensor-pose) is for "
         "point files");
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
-  return read_depth(file.path, file.camera.value_or(given), {params.min_depth, params.max_depth});
+  const Camera camera = file.camera.value_or(given);
+  const DepthRange range{params.min_depth, params.max_depth};
+  return file.depth ? points_of(*file.depth, camera, range) : read_depth(file.path, camera, range);
 }
 
 Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {

@@ -10,6 +10,8 @@
 namespace posevote::load {
 namespace {
 
+constexpr double kFarthest = 1e6;  // [m]; NaN and infinity are no measurement
+
 void check_camera(const Camera& camera) {
   constexpr double kMostScale = 1e6;
   constexpr double kMostPixels = 1e6;  // beyond, points need not be finite any more
@@ -29,18 +31,7 @@ void check_camera(const Camera& camera) {
                              " mm per unit, expected more than 0 and at most 1e6");
 }
 
-/// Depth of every raw value [m], 0 where it is to be left out.
-std::vector<float> depth_table(const Camera& camera, const DepthRange& range) {
-  std::vector<float> depths(std::size_t{1} << 16, 0.0F);
-  for (std::size_t raw = 1; raw < depths.size(); ++raw) {
-    const double depth = static_cast<double>(raw) * camera.depth_scale * 0.001;
-    if (depth >= range.near && (range.far <= 0 || depth <= range.far))
-      depths[raw] = static_cast<float>(depth);
-  }
-  return depths;
-}
-
-Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const formats::DepthImage& image) {
+Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const LoadedDepth& image) {
   const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
   const Eigen::Vector2d low((-0.5 - camera.cx) / camera.fx, (-0.5 - camera.cy) / camera.fy);
   const Eigen::Vector2d high((width - 0.5 - camera.cx) / camera.fx,
@@ -50,28 +41,37 @@ Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const formats::DepthImage
 
 }  // namespace
 
-Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
+Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange& range) {
   check_camera(camera);
-  const formats::DepthImage image = formats::read_depth_image(path);
-  const std::vector<float> depths = depth_table(camera, range);
   Scan scan;
-  scan.points.resize(static_cast<Eigen::Index>(image.values.size()), 3);
+  scan.points.resize(static_cast<Eigen::Index>(image.depths.size()), 3);
   Eigen::Index count = 0;
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const float z = depths[image.values[i]];
-    if (z <= 0) continue;
+  for (std::size_t i = 0; i < image.depths.size(); ++i) {
+    const float z = image.depths[i];
+    const double depth = z;
+    if (!(depth > 0 && depth >= range.near && depth <= (range.far > 0 ? range.far : kFarthest)))
+      continue;
     const std::size_t row = i / image.width, column = i % image.width;
     const auto u = static_cast<double>(column), v = static_cast<double>(row);
-    scan.points.row(count++) << static_cast<float>((u - camera.cx) * z / camera.fx),
-        static_cast<float>((v - camera.cy) * z / camera.fy), z;
+    scan.points.row(count++) << static_cast<float>((u - camera.cx) * depth / camera.fx),
+        static_cast<float>((v - camera.cy) * depth / camera.fy), z;
   }
   scan.view.image = pixel_bounds(camera, image);
   scan.view.pixels = {static_cast<int>(image.width), static_cast<int>(image.height)};
   if (count == 0)
-    throw std::runtime_error("none of the image's " + std::to_string(image.values.size()) +
+    throw std::runtime_error("none of the image's " + std::to_string(image.depths.size()) +
                              " pixels holds a depth within the limits (0 is no measurement)");
   scan.points.conservativeResize(count, 3);
   return scan;
+}
+
+Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
+  check_camera(camera);
+  const formats::DepthImage image = formats::read_depth_image(path);
+  LoadedDepth loaded{image.width, image.height, std::vector<float>(image.values.size())};
+  for (std::size_t i = 0; i < image.values.size(); ++i)
+    loaded.depths[i] = static_cast<float>(image.values[i] * camera.depth_scale * 0.001);
+  return points_of(loaded, camera, range);
 }
 
 }  // namespace posevote::load

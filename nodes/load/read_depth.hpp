@@ -14,9 +14,12 @@ struct DepthRange {
   double far = 0;
 };
 
-/// Reads a depth image as the points it measured, row by row: x right, y down, z forward, the
-/// camera at the origin. Integer pixel coordinates are pixel centres; 0 is no measurement. Throws
-/// std::runtime_error that says what is wrong, but does not repeat the path.
+/// The points that a depth image measured, row by row: x right, y down, z forward, the camera at the
+/// origin. Integer pixel coordinates are pixel centres. Throws std::runtime_error that says what is
+/// wrong.
+Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange& range);
+
+/// Those of a file, 0 being no measurement. The error does not repeat the path.
 Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range);
 
 }  // namespace posevote::load

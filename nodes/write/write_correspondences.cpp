@@ -51,8 +51,9 @@ std::string rows_of(const Correspondences& object, const FeatureSet& scene) {
 void write_correspondences(const PerObject<Correspondences>& correspondences,
                            const FeatureSet& scene_features, const graph::FrameContext& context,
                            const Params& params) {
-  if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
-  if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
+  if (context.out.empty() || params.every == 0 ||
+      context.number % static_cast<std::uint64_t>(params.every) != 0)
+    return;
   const std::filesystem::path file = context.out / "correspondences" / (context.name + ".csv");
   std::filesystem::create_directories(file.parent_path());
   std::ofstream stream(file, std::ios::binary);

@@ -8,7 +8,6 @@
 //
 //   write_overlay: {in: [scene_cloud, detections, library], every: 1}
 #include <filesystem>
-#include <stdexcept>
 
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
@@ -43,8 +42,9 @@ void append(Mesh& to, const Cloud& cloud, const Eigen::Isometry3f& pose) {
 
 void write_overlay(const Cloud& scan, const Detections& detections, const ModelLibrary& library,
                    const graph::FrameContext& context, const Params& params) {
-  if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
-  if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
+  if (context.out.empty() || params.every == 0 ||
+      context.number % static_cast<std::uint64_t>(params.every) != 0)
+    return;
   Mesh overlay;
   append(overlay, scan, Eigen::Isometry3f::Identity());
   std::vector<formats::Rgb> colours(static_cast<std::size_t>(scan.points.rows()),

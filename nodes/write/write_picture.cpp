@@ -8,7 +8,6 @@
 //   write_picture: {in: [scene_cloud, detections, library], width: 1280, every: 1}
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
@@ -40,8 +39,9 @@ PointMatrix found_points(const Detections& detections, const ModelLibrary& libra
 
 void write_picture(const Cloud& scan, const Detections& detections, const ModelLibrary& library,
                    const graph::FrameContext& context, const Params& params) {
-  if (params.every == 0 || context.number % static_cast<std::uint64_t>(params.every) != 0) return;
-  if (context.out.empty()) throw std::invalid_argument("there is no output folder to write to");
+  if (context.out.empty() || params.every == 0 ||
+      context.number % static_cast<std::uint64_t>(params.every) != 0)
+    return;
   pictures::Painter painter(scan, found_points(detections, library), params.width,
                             library.octaves.front().resolution);
   painter.draw(scan, Eigen::Isometry3f::Identity(), {0.72F, 0.72F, 0.70F}, 0);

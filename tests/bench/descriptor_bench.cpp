@@ -20,11 +20,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipelines/configuration.hpp"
+#include "pipelines/inputs.hpp"
+#include "pipelines/library.hpp"
 #include "tools/commands.hpp"
-#include "tools/configuration.hpp"
 #include "tools/evaluate/evaluate.hpp"
-#include "tools/inputs.hpp"
-#include "tools/library.hpp"
 
 namespace posevote {
 namespace {

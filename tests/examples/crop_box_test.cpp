@@ -3,9 +3,9 @@
 
 #include "graph/problem.hpp"
 #include "nodes/data/cloud.hpp"
+#include "pipelines/configuration.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/configuration.hpp"
 
 using namespace posevote;
 

@@ -3,8 +3,8 @@
 
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/layouts/ground_truth.hpp"
+#include "pipelines/inputs.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/inputs.hpp"
 
 using namespace posevote;
 

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "nodes/formats/read_scan.hpp"
+#include "pipelines/inputs.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/inputs.hpp"
 
 using namespace posevote;
 

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "graph/registry.hpp"
+#include "pipelines/configuration.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/commands.hpp"
-#include "tools/configuration.hpp"
 
 using namespace posevote;
 namespace fs = std::filesystem;

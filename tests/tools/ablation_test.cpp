@@ -6,10 +6,10 @@
 #include <set>
 
 #include "graph/yaml_reader.hpp"
+#include "pipelines/configuration.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/ablation/replay.hpp"
 #include "tools/ablation/variations.hpp"
-#include "tools/configuration.hpp"
 
 using namespace posevote;
 using namespace posevote::ablation;

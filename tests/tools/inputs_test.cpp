@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/inputs.hpp"
+#include "pipelines/inputs.hpp"
 
 #include <catch2/catch.hpp>
 

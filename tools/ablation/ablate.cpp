@@ -6,12 +6,12 @@
 #include "graph/runner.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/votes.hpp"
+#include "pipelines/inputs.hpp"
+#include "pipelines/library.hpp"
 #include "tools/ablation/ablation.hpp"
 #include "tools/ablation/replay.hpp"
 #include "tools/ablation/variations.hpp"
 #include "tools/evaluate/evaluate.hpp"
-#include "tools/inputs.hpp"
-#include "tools/library.hpp"
 
 namespace posevote::ablation {
 namespace {

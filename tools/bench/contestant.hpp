@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "graph/runner.hpp"
+#include "pipelines/inputs.hpp"
+#include "pipelines/library.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/experiment/experiment.hpp"
-#include "tools/inputs.hpp"
-#include "tools/library.hpp"
 #include "tools/median.hpp"
 
 namespace posevote {

@@ -9,13 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/inputs.hpp"
+#include "pipelines/installed.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/evaluate.hpp"
 #include "tools/evaluate/write_evaluation.hpp"
 #include "tools/experiment/conditions.hpp"
 #include "tools/experiment/experiment.hpp"
 #include "tools/experiment/protocol.hpp"
-#include "tools/inputs.hpp"
 #include "tools/plot/line_chart.hpp"
 #include "tools/simulate/simulate.hpp"
 #include "tools/write_text.hpp"
@@ -39,7 +40,7 @@ std::size_t step_of(const ExperimentCommand& command) {
 }
 
 std::string spec_of(const ExperimentCommand& command) {
-  return POSEVOTE_SOURCE_DIR "/configs/" + command.name + "_scenes.yaml";
+  return (shared_folder() / "configs" / (command.name + "_scenes.yaml")).string();
 }
 
 /// The data set to use; the replica is made where it is not there yet, without images that nobody

@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "pipelines/installed.hpp"
 #include "tools/simulate/simulate.hpp"
 
 namespace posevote {
@@ -19,7 +20,7 @@ const std::map<std::string, std::size_t> kEvery = {
 /// nobody will look at.
 fs::path find_replica(const std::string& config, std::size_t every, const fs::path& out) {
   const fs::path dataset = out / "replicas" / (config + "_every_" + std::to_string(every));
-  const std::string spec = POSEVOTE_SOURCE_DIR "/configs/" + config + "_scenes.yaml";
+  const std::string spec = (shared_folder() / "configs" / (config + "_scenes.yaml")).string();
   if (!fs::exists(spec))
     throw std::invalid_argument("--sets " + config + ": expected a config with scenes to " +
                                 "simulate, or CONFIG=DIR for a real set");

@@ -69,11 +69,11 @@ TEST_CASE("write_overlay takes scans that are empty or have no normals", "[write
   CHECK(formats::read_mesh(folder / "overlays/shelf.ply", 1).points.rows() == 31 * 31);
 }
 
-TEST_CASE("write_overlay needs an output folder it can write to", "[write]") {
+TEST_CASE("write_overlay writes nothing without an output folder, and says where it cannot",
+          "[write]") {
   const TemporaryFolder folder;
   const Cloud scan = make_patch(100, 0.01F, 1);
-  CHECK_THROWS_AS(run_writer("write_overlay", "1", {}, scan, Detections(), make_library()),
-                  std::invalid_argument);
+  CHECK_NOTHROW(run_writer("write_overlay", "1", {}, scan, Detections(), make_library()));
   const test::FullDisk full(5000);
   CHECK_THROWS_WITH(write(folder, scan, {}), Catch::Contains("shelf.ply: cannot be written"));
   CHECK(std::filesystem::is_empty(folder / "overlays"));

@@ -197,10 +197,10 @@ TEST_CASE("write_picture takes what is empty, not finite or without normals", "[
     CHECK(draw(scan, odd).width == 1280);
 }
 
-TEST_CASE("write_picture needs an output folder it can write to", "[write]") {
+TEST_CASE("write_picture writes nothing without an output folder, and says where it cannot",
+          "[write]") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(run_writer("write_picture", "1", {}, wall(), Detections(), make_library()),
-                  std::invalid_argument);
+  CHECK_NOTHROW(run_writer("write_picture", "1", {}, wall(), Detections(), make_library()));
   run_writer("write_picture", "0", {}, wall(), Detections(), make_library());
   folder.write("pictures", "a file where the folder should be");
   CHECK_THROWS_WITH(run_writer("write_picture", "1", {0, "shelf", folder.path(), 0}, wall(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/overrides.hpp"
+#include "pipelines/overrides.hpp"
 
 #include <filesystem>
 #include <stdexcept>

@@ -7,7 +7,7 @@
 
 #include "nodes/data/files.hpp"
 #include "nodes/data/model.hpp"
-#include "tools/configuration.hpp"
+#include "pipelines/configuration.hpp"
 
 namespace posevote {
 

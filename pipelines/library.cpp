@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/library.hpp"
+#include "pipelines/library.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "graph/plugin.hpp"
 #include "graph/runner.hpp"
 #include "nodes/formats/units.hpp"
 #include "nodes/library/library_file.hpp"
@@ -19,13 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What it was trained by: the same models and parameters give another library after a change of
-/// the nodes.
-constexpr const char* kThisProgram = "/proc/self/exe";
-
 std::string symmetry_text(const ModelFile& model) {
   if (!model.symmetries) return "";
   std::ostringstream text;
+  text.precision(9);
   text << model.symmetries->fixed_point.transpose();
   for (const Eigen::Quaternionf& turn : model.symmetries->turns)
     text << " turn " << turn.coeffs().transpose();
@@ -33,12 +31,24 @@ std::string symmetry_text(const ModelFile& model) {
   return text.str();
 }
 
+template <class Matrix>
+std::string bytes_of(const Matrix& matrix) {
+  return {reinterpret_cast<const char*>(matrix.data()),
+          static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar)};
+}
+
+std::string mesh_bytes(const Mesh& mesh) {
+  return bytes_of(mesh.points) + bytes_of(mesh.normals) + bytes_of(mesh.faces);
+}
+
 /// The parameters, and obj_id, name and given symmetries of each model: bytes alone do not say which
 /// object it is.
 std::string parameters_with_names(const Configuration& configuration, const ModelFiles& models) {
   std::string text = training_parameters(configuration.models);
-  for (const ModelFile& model : models)
+  for (const ModelFile& model : models) {
     text += std::to_string(model.obj_id) + " " + model.name + " " + symmetry_text(model) + "\n";
+    if (model.mesh) text += mesh_bytes(*model.mesh);
+  }
   return text;
 }
 
@@ -133,8 +143,10 @@ void tell_left_out(const ModelLibrary& library) {
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models, const fs::path& folder,
                                                    BadModels bad) {
-  std::vector<fs::path> files{kThisProgram};
-  for (const ModelFile& model : models) files.push_back(model.path);
+  // The same models and parameters give another library after a change of the nodes.
+  std::vector<fs::path> files = graph::code_files();
+  for (const ModelFile& model : models)
+    if (!model.mesh) files.push_back(model.path);
   const std::string key = library::hash_files(files, parameters_with_names(configuration, models));
   const fs::path file = folder / (key + ".library");
   if (fs::exists(file)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/configuration.hpp"
+#include "pipelines/configuration.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/plugin.hpp"
 #include "graph/yaml_reader.hpp"
+#include "pipelines/installed.hpp"
 
 namespace posevote {
 namespace {
@@ -21,7 +23,7 @@ using graph::Problem;
 /// "uwa" -> the project's configs/uwa.yaml, unless a file of that name is here. A data set's folder
 /// may well be called so.
 std::string find_config(const std::string& config) {
-  const fs::path own = fs::path(POSEVOTE_SOURCE_DIR) / "configs" / (config + ".yaml");
+  const fs::path own = shared_folder() / "configs" / (config + ".yaml");
   const bool is_name = config.find('/') == std::string::npos;
   const bool is_here = fs::exists(config) && !fs::is_directory(config);
   return is_name && !is_here && fs::exists(own) ? own.string() : config;
@@ -31,7 +33,7 @@ std::string find_config(const std::string& config) {
 std::string find_pipeline(const std::string& name, const std::string& config) {
   const fs::path folder = fs::path(config).parent_path();
   const std::string file = name + ".yaml";
-  const fs::path own = fs::path(POSEVOTE_SOURCE_DIR) / "pipelines" / file;
+  const fs::path own = shared_folder() / "pipelines" / file;
   for (const fs::path& path : {folder / file, folder / ".." / "pipelines" / file, own})
     if (fs::exists(path)) return path.lexically_normal().string();
   return "";
@@ -106,7 +108,18 @@ PipelineDescription read_wiring(const std::string& config, const std::string& pi
   }
   overrides.insert(overrides.end(), description.overrides.begin(), description.overrides.end());
   if (description.pipeline.empty()) return {};
-  return read_named(description.pipeline, description.where, file, problems);
+  PipelineDescription wiring = read_named(description.pipeline, description.where, file, problems);
+  wiring.plugins.insert(wiring.plugins.end(), description.plugins.begin(),
+                        description.plugins.end());
+  return wiring;
+}
+
+void load_plugins(const PipelineDescription& pipeline, std::vector<Problem>& problems) {
+  for (const graph::Wire& plugin : pipeline.plugins) try {
+      graph::load_plugin(graph::file_of(plugin));
+    } catch (const std::invalid_argument& error) {
+      problems.push_back({plugin.where, "plugins", error.what()});
+    }
 }
 
 void plan(const PipelineDescription& scenes, const PipelineDescription& models,
@@ -140,6 +153,7 @@ Configuration load_configuration(const std::string& config, const std::vector<st
     std::swap(scenes, models);
   else
     models = read_named(scenes.models, scenes.models_where, scenes.models_where.file, problems);
+  for (const PipelineDescription* each : {&scenes, &models}) load_plugins(*each, problems);
   apply(scenes, models, overrides, problems);
   graph::resolve_likes(models, nullptr, problems);
   graph::resolve_likes(scenes, &models, problems);
@@ -159,6 +173,11 @@ graph::Constants constants_of(const Configuration& configuration,
 std::string effective_yaml(const Configuration& configuration) {
   YAML::Emitter out;
   out << YAML::BeginMap << YAML::Key << "pipeline" << YAML::Value << configuration.pipeline;
+  if (const auto plugins = graph::loaded_plugins(); !plugins.empty()) {
+    out << YAML::Key << "plugins" << YAML::Value << YAML::BeginSeq;
+    for (const fs::path& plugin : plugins) out << plugin.string();
+    out << YAML::EndSeq;
+  }
   emit_parameters(out, configuration.models);
   emit_parameters(out, configuration.scenes);
   out << YAML::EndMap;

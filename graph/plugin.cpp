@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph/plugin.hpp"
+
+#include <dlfcn.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+
+#ifdef POSEVOTE_ABI
+extern "C" {
+extern const char POSEVOTE_ABI;
+const char POSEVOTE_ABI = 0;
+}
+#endif
+
+namespace posevote::graph {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Loaded {
+  std::mutex mutex;
+  std::vector<fs::path> files;
+  std::vector<fs::path> bundled;  ///< those of them that come with the program
+};
+
+Loaded& loaded() {
+  static Loaded all;
+  return all;
+}
+
+/// Why the loader refused it, in the user's words.
+std::string why_refused(const std::string& message) {
+  if (message.find("undefined symbol: posevote_abi_") != std::string::npos)
+    return "built for another version of posevote; build it anew against this one";
+  const std::size_t colon = message.find(": ");
+  return colon == std::string::npos ? message : message.substr(colon + 2);
+}
+
+void open_library(const fs::path& file) {
+  if (dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return;
+  const char* message = dlerror();
+  throw std::invalid_argument("the plugin " + file.string() + ": " +
+                              why_refused(message ? message : "it cannot be loaded"));
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+}  // namespace
+
+namespace {
+
+/// Remembers it in `list`, too, unless that is null.
+void load(const fs::path& file, std::vector<fs::path>* list) {
+  std::error_code missing;
+  const fs::path path = fs::canonical(file, missing);
+  if (missing) throw std::invalid_argument("the plugin " + file.string() + ": no such file");
+  const std::lock_guard lock(loaded().mutex);
+  if (std::count(loaded().files.begin(), loaded().files.end(), path) > 0) return;
+  const std::size_t before = detail::count_nodes();
+  const std::vector<std::string> taken = detail::names_taken([&path] { open_library(path); });
+  if (!taken.empty())
+    throw std::invalid_argument("the plugin " + file.string() + ": the name of its node " +
+                                listed(taken) + " is taken");
+  if (detail::count_nodes() == before)
+    throw std::invalid_argument("the plugin " + file.string() + ": it registers no node");
+  loaded().files.push_back(path);
+  if (list) list->push_back(path);
+}
+
+}  // namespace
+
+void load_plugin(const fs::path& file) { load(file, nullptr); }
+
+std::vector<fs::path> loaded_plugins() {
+  const std::lock_guard lock(loaded().mutex);
+  std::vector<fs::path> plugins = loaded().files;
+  std::erase_if(plugins, [](const fs::path& file) {
+    return std::count(loaded().bundled.begin(), loaded().bundled.end(), file) > 0;
+  });
+  std::sort(plugins.begin(), plugins.end());
+  return plugins;
+}
+
+std::string file_of(const Wire& plugin) {
+  return fs::absolute(fs::path(plugin.where.file).parent_path() / plugin.stream)
+      .lexically_normal()
+      .string();
+}
+
+fs::path this_library() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&this_library), &info) == 0 || !info.dli_fname)
+    return "/proc/self/exe";
+  std::error_code unknown;
+  const fs::path file = fs::canonical(info.dli_fname, unknown);
+  return unknown ? fs::path("/proc/self/exe") : file;
+}
+
+std::vector<fs::path> code_files() {
+  const std::lock_guard lock(loaded().mutex);
+  std::vector<fs::path> files = loaded().files;
+  std::sort(files.begin(), files.end());
+  files.insert(files.begin(), this_library());
+  return files;
+}
+
+namespace detail {
+
+void load_bundled() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    std::vector<fs::path> files;
+    std::error_code none;
+    for (const auto& entry :
+         fs::directory_iterator(this_library().parent_path() / "posevote", none))
+      if (entry.path().extension() == ".so") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) try {
+        load(file, &loaded().bundled);
+      } catch (const std::invalid_argument& error) {
+        spdlog::debug("{}", error.what());
+      }
+  });
+}
+
+}  // namespace detail
+}  // namespace posevote::graph
