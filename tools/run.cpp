@@ -149,14 +149,21 @@ class Progress {
     return names;
   }
 
+  /// "0 found" alone explains nothing.
+  static void say_nearest(const Detection& best) {
+    const auto worst = std::max_element(best.against.begin(), best.against.end());
+    std::printf("    the best candidate, %s: %s; most against it: %s\n", best.model.c_str(),
+                best.why.c_str(), kClueNames[std::size_t(worst - best.against.begin())]);
+  }
+
   void say(const graph::FrameContext& frame, const Detections& detections, double seconds) const {
     std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, count_,
                 frame.file.filename().c_str(), detections.items.size(), seconds);
     for (const Detection& item : detections.items)
-      std::printf(
-          "    %-24s confidence %.2f  density %.0f (next %.0f)  inliers %.0f %%  rms %.2f mm\n",
-          item.model.c_str(), item.confidence, item.density, item.runner_up_density,
-          100 * item.inlier_fraction, 1e3 * item.rmse);
+      std::printf("    %-24s confidence %.2f  inliers %.0f %%  rms %.2f mm\n", item.model.c_str(),
+                  item.confidence, 100 * item.inlier_fraction, 1e3 * item.rmse);
+    if (detections.items.empty() && !detections.rejected.empty())
+      say_nearest(detections.rejected.front());
     std::fflush(stdout);
   }
 

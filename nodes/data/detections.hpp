@@ -25,11 +25,14 @@ struct Detection {
   double rmse = 0;             ///< point-to-plane, over the inliers [m]
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
   Symmetries symmetries;  ///< of the model: poses that look the same
+  Clues against{};        ///< what each clue takes from the log odds, beside usual right detections
+  std::string why;        ///< of a rejected one: the threshold that it missed
 };
 
-/// All detections of a frame, in the order in which they were found.
+/// All detections of a frame, in descending order of confidence.
 struct Detections {
   std::vector<Detection> items;
+  std::vector<Detection> rejected{};  ///< the best of what is none, a few of each object
 };
 
 }  // namespace posevote

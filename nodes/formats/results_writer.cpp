@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr const char* kHeader = "scene_id,im_id,obj_id,score,R,t,time\n";
-constexpr const char* kLeftOut = "{\"models_left_out\": ";
+constexpr const char* kLeftOut = "\"models_left_out\": ";
 constexpr const char* kFailuresTail = "\n]\n";
 
 std::string results_tail(const std::vector<graph::NodeTimes>& nodes) {
@@ -56,9 +56,17 @@ ordered_json to_json(const Symmetries& symmetries) {
   return {{"discrete", discrete}, {"continuous", continuous}};
 }
 
-ordered_json to_json(const Detection& found) {
+/// Clues by their names.
+ordered_json to_json(const Clues& values) {
   ordered_json clues;
-  for (std::size_t i = 0; i < kClueCount; ++i) clues[kClueNames[i]] = found.clues[i];
+  for (std::size_t i = 0; i < kClueCount; ++i) clues[kClueNames[i]] = values[i];
+  return clues;
+}
+
+ordered_json to_json(const Detection& found) {
+  Eigen::Quaterniond q(found.T_scene_model.linear());
+  if (q.w() < 0) q.coeffs() = -q.coeffs();  // one text for one rotation
+  const Eigen::Vector3d t = found.T_scene_model.translation();
   ordered_json json{{"obj_id", found.obj_id},
                     {"model", found.model},
                     {"confidence", found.confidence},
@@ -67,15 +75,23 @@ ordered_json to_json(const Detection& found) {
                     {"runner_up_density", found.runner_up_density},
                     {"inlier_fraction", found.inlier_fraction},
                     {"rmse_m", found.rmse},
-                    {"clues", clues},
-                    {"T_scene_model", row_by_row(found.T_scene_model)}};
+                    {"clues", to_json(found.clues)},
+                    {"against", to_json(found.against)},
+                    {"T_scene_model", row_by_row(found.T_scene_model)},
+                    {"q_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+                    {"t_m", {t.x(), t.y(), t.z()}}};
+  if (!found.why.empty()) json["why"] = found.why;
   if (found.symmetries.any()) json["symmetries"] = to_json(found.symmetries);
   return json;
 }
 
-ordered_json to_json(const FrameReport& frame, const Detections& detections) {
+ordered_json to_json(const std::vector<Detection>& detections) {
   ordered_json list = ordered_json::array();
-  for (const Detection& found : detections.items) list.push_back(to_json(found));
+  for (const Detection& found : detections) list.push_back(to_json(found));
+  return list;
+}
+
+ordered_json to_json(const FrameReport& frame, const Detections& detections) {
   ordered_json warnings = ordered_json::array();
   for (const graph::Warning& warning : frame.warnings)
     warnings.push_back({{"node", warning.node}, {"what", warning.what}});
@@ -89,7 +105,8 @@ ordered_json to_json(const FrameReport& frame, const Detections& detections) {
   for (const auto& [name, figure] : frame.figures)
     json[name] = figure.size() == 1 ? ordered_json(figure[0]) : ordered_json(figure);
   json["warnings"] = warnings;
-  json["detections"] = list;
+  json["detections"] = to_json(detections.items);
+  json["rejected"] = to_json(detections.rejected);
   return json;
 }
 
@@ -111,12 +128,33 @@ std::string csv_rows(const ordered_json& json) {
   return csv_rows(frame, detections);
 }
 
-/// A line for the models that are left out, if there are any, and the beginning of the list.
+/// What the numbers mean, for who has the file alone.
+const ordered_json& about() {
+  static const ordered_json text{
+      {"format", "posevote results 1"},
+      {"units", "m, rad, s"},
+      {"T_scene_model",
+       "4 x 4, row by row: takes a point of the model's file, in metres, to the scan's frame "
+       "(p_scene = T p_model): of a depth image the camera's, x right, y down, z forward; of a "
+       "point file the file's own"},
+      {"q_wxyz, t_m", "the same as a unit quaternion and a translation"},
+      {"symmetries", "motions of the model after which it looks the same: T S is as good as T"},
+      {"confidence", "the probability that the detection is right"},
+      {"rejected", "the best poses that missed a threshold, and which"},
+      {"against",
+       "what each clue takes from the confidence's log odds, beside what right "
+       "detections usually have"}};
+  return text;
+}
+
+/// Lines for what the numbers mean and for the models that are left out, if there are any, and the
+/// beginning of the list.
 std::string results_head(const std::vector<LeftOutModel>& left_out) {
   ordered_json list = ordered_json::array();
   for (const LeftOutModel& model : left_out)
     list.push_back({{"obj_id", model.obj_id}, {"model", model.name}, {"why", model.why}});
-  return (list.empty() ? "{" : kLeftOut + line(list) + ",\n") + "\"frames\": [";
+  return "{\"about\": " + line(about()) + ",\n" +
+         (list.empty() ? "" : kLeftOut + line(list) + ",\n") + "\"frames\": [";
 }
 
 [[noreturn]] void fail_changed(const fs::path& results, std::size_t frame,
@@ -203,8 +241,10 @@ std::vector<LeftOutModel> read_left_out(const fs::path& file) {
   std::vector<LeftOutModel> left_out;
   std::ifstream stream(file);
   std::string text;
-  if (!std::getline(stream, text) || !text.starts_with(kLeftOut) || !text.ends_with(','))
-    return left_out;
+  while (std::getline(stream, text) && !text.starts_with(kLeftOut))
+    if (text.starts_with("\"frames\"")) return left_out;
+  if (!text.ends_with(',')) return left_out;
+  text = "{" + text;
   text.back() = '}';
   try {
     const ordered_json json = ordered_json::parse(text);

@@ -70,7 +70,7 @@ struct WrittenFrames {
   std::size_t torn = 0;  ///< lines left out
 };
 
-/// The models that a run did not seek, as the first line of its results.json says.
+/// The models that a run did not seek, as its results.json says before the frames.
 std::vector<LeftOutModel> read_left_out(const std::filesystem::path& file);
 
 /// Each line is read alone: a killed run may have torn the last one. Lines without `key` are left

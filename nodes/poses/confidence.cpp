@@ -12,6 +12,9 @@ namespace {
 /// Of true poses, so that it says nothing.
 constexpr double kUsualVotesPerFeature = 0.3;
 
+/// Medians of 1300 right detections of simulated scans of parts, household objects and bins.
+constexpr Clues kUsualClues{3.2, -0.9, -1.9, 0.1, -1.2, -0.2, 1, 8.3};
+
 /// Beyond these bounds more is neither better nor worse.
 double bounded_log(double value, double low, double high) {
   return std::log(std::clamp(value, low, high));
@@ -39,6 +42,13 @@ double confidence_of(const Clues& clues, const ConfidenceTerms& terms) {
   double log_odds = terms.offset;
   for (std::size_t i = 0; i < kClueCount; ++i) log_odds += terms.weights[i] * clues[i];
   return 1 / (1 + std::exp(-log_odds));
+}
+
+Clues against(const Clues& clues, const ConfidenceTerms& terms) {
+  Clues missing{};
+  for (std::size_t i = 0; i < kClueCount; ++i)
+    missing[i] = terms.weights[i] * (kUsualClues[i] - clues[i]);
+  return missing;
 }
 
 void believe(const Sought& sought, Candidate& candidate) {

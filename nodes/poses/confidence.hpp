@@ -31,6 +31,10 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms = {
 /// In [0, 1]: 1 / (1 + exp(-(offset + weights . clues))).
 double confidence_of(const Clues& clues, const ConfidenceTerms& terms);
 
+/// What each clue takes from the log odds, beside what right detections usually have; negative where
+/// it speaks for the pose.
+Clues against(const Clues& clues, const ConfidenceTerms& terms);
+
 /// Sets consensus, clues and confidence of a candidate.
 void believe(const Sought& sought, Candidate& candidate);
 

@@ -64,14 +64,47 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
   return found;
 }
 
+void sort_by_confidence(std::vector<Instance>& instances) {
+  std::stable_sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
+    return a.candidate.confidence > b.candidate.confidence;
+  });
+}
+
+/// The first of each object, and of those in one place.
+void keep_few(std::vector<Instance>& instances, const std::vector<ObjectSearch>& searches) {
+  constexpr std::size_t kFew = 3;
+  std::vector<std::vector<Eigen::Vector3d>> kept(searches.size());
+  std::erase_if(instances, [&](const Instance& instance) {
+    const ObjectSearch& search = searches[instance.object];
+    const Eigen::Vector3d center =
+        posed_center(instance.candidate.T_scene_model, search.model().center);
+    std::vector<Eigen::Vector3d>& others = kept[instance.object];
+    const bool is_new = std::none_of(others.begin(), others.end(), [&](const auto& other) {
+      return (other - center).norm() < static_cast<double>(search.params().nms_radius);
+    });
+    if (!is_new || others.size() == kFew) return true;
+    others.push_back(center);
+    return false;
+  });
+}
+
 }  // namespace
 
-std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
-  std::vector<Instance> found = search_all(searches, scan);
-  std::erase_if(found, [&](const Instance& instance) {
-    return instance.candidate.confidence < searches[instance.object].params().min_confidence;
-  });
-  return found;
+Instances find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
+  Instances all;
+  all.found = search_all(searches, scan);
+  const auto doubtful =
+      std::stable_partition(all.found.begin(), all.found.end(), [&](const Instance& instance) {
+        return instance.candidate.confidence >= searches[instance.object].params().min_confidence;
+      });
+  all.rejected.assign(doubtful, all.found.end());
+  all.found.erase(doubtful, all.found.end());
+  for (std::size_t i = 0; i < searches.size(); ++i)
+    for (const Candidate& refused : searches[i].refused()) all.rejected.push_back({i, refused});
+  sort_by_confidence(all.found);
+  sort_by_confidence(all.rejected);
+  keep_few(all.rejected, searches);
+  return all;
 }
 
 }  // namespace posevote::poses

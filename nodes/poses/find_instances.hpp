@@ -14,10 +14,16 @@ struct Instance {
   Candidate candidate;
 };
 
-/// The instances in the order in which they were found; of equally good poses that of the lower
-/// obj_id, then the one that was proposed first. Takes what they explain out of the scan, but for
+/// What became of the best poses.
+struct Instances {
+  std::vector<Instance> found;     ///< in descending order of confidence
+  std::vector<Instance> rejected;  ///< the same; a few of each object, which missed a threshold
+};
+
+/// Instance after instance; of equally good poses that of the lower obj_id goes first, then the one
+/// that was proposed first. Takes what they explain out of the scan, but for
 /// the last where no more may be found. A wrong object that fits a part of another one's points so
 /// does not get them before the right one.
-std::vector<Instance> find_instances(std::vector<ObjectSearch>& searches, ScanState& scan);
+Instances find_instances(std::vector<ObjectSearch>& searches, ScanState& scan);
 
 }  // namespace posevote::poses

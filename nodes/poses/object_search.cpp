@@ -31,6 +31,7 @@ void ObjectSearch::choose() {
     if (is_convincing(sought_, *best_) && taken_.is_clear(sought_.model, best_->T_scene_model))
       return;
   }
+  if (best_ && taken_.is_clear(sought_.model, best_->T_scene_model)) refused_.push_back(*best_);
   best_.reset();
   pool_.clear();
 }

@@ -29,6 +29,9 @@ class ObjectSearch {
   const InstanceParams& params() const { return sought_.params; }
   /// The best pose when last asked for; none where all were below the threshold.
   const std::optional<Candidate>& best() const { return best_; }
+  /// The best poses of those that were looked at closely and missed a threshold; one for each choice
+  /// that came to nothing.
+  const Candidates& refused() const { return refused_; }
   /// Whether `best` is of the scan as it is now. If not, its quality is about an upper bound,
   /// because points that were taken out support nothing any more; but a pose that a twin displaced
   /// may return.
@@ -55,6 +58,7 @@ class ObjectSearch {
   Proposals proposals_;
   Candidates pool_;  ///< the best first, as far as they were judged
   std::optional<Candidate> best_;
+  Candidates refused_;
   TakenPlaces taken_;
   int accepted_ = 0;
   int proposed_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
+
+#include "nodes/poses/confidence.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -14,6 +17,20 @@ void check_normals(const std::string& what, const PointMatrix& points, const Poi
   if (normals.rows() == points.rows()) return;
   throw std::runtime_error(what + " has " + std::to_string(points.rows()) + " points but " +
                            std::to_string(normals.rows()) + " normals");
+}
+
+std::string two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+std::string why_rejected(const Detection& rejected, const SegmentParams& params) {
+  if (rejected.score < params.min_score)
+    return "score " + two_digits(rejected.score) + " is below min_score " +
+           two_digits(params.min_score);
+  return "confidence " + two_digits(rejected.confidence) + " is below min_confidence " +
+         two_digits(params.min_confidence);
 }
 
 }  // namespace
@@ -37,18 +54,31 @@ InstanceParams instance_params(const SegmentParams& params, const Model& model,
   return out;
 }
 
-Detection make_detection(const Model& model, const Candidate& candidate) {
+Detection make_detection(const Model& model, const Candidate& candidate,
+                         const ConfidenceTerms& terms) {
   Detection detection;
   detection.obj_id = model.obj_id;
   detection.model = model.name;
   detection.score = candidate.score();
   detection.confidence = candidate.confidence;
   detection.clues = candidate.clues;
+  detection.against = against(candidate.clues, terms);
   detection.inlier_fraction = candidate.fit.inlier_fraction;
   detection.rmse = candidate.fit.rmse;
   detection.T_scene_model = candidate.T_scene_model;
   detection.symmetries = model.symmetries;
   return detection;
+}
+
+Detections make_detections(const Instances& instances, const SegmentParams& params,
+                           const std::function<Detection(const Instance&)>& make) {
+  Detections detections;
+  for (const Instance& instance : instances.found) detections.items.push_back(make(instance));
+  for (const Instance& instance : instances.rejected) {
+    Detection& rejected = detections.rejected.emplace_back(make(instance));
+    rejected.why = why_rejected(rejected, params);
+  }
+  return detections;
 }
 
 void check_scan(const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale) {

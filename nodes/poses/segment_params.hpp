@@ -2,6 +2,8 @@
 // The parameters that every segmentation shares, whatever proposes the poses.
 #pragma once
 
+#include <functional>
+
 #include "graph/registry.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/poses/find_instances.hpp"
@@ -29,7 +31,12 @@ InstanceParams instance_params(const SegmentParams& params, const Model& model,
                                float scan_resolution);
 
 /// Densities are for the caller to fill in.
-Detection make_detection(const Model& model, const Candidate& candidate);
+Detection make_detection(const Model& model, const Candidate& candidate,
+                         const ConfidenceTerms& terms);
+
+/// The same of all, those that were rejected with the reason; `make`: of an Instance.
+Detections make_detections(const Instances& instances, const SegmentParams& params,
+                           const std::function<Detection(const Instance&)>& make);
 
 /// Throws std::runtime_error where the resolution is no length, or points lack normals.
 void check_scan(const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale);

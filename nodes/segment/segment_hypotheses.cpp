@@ -31,16 +31,17 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
                       params.terms},
         propose_from(*object));
   }
-  Detections found;
-  for (const poses::Instance& instance : poses::find_instances(searches, scan)) {
-    const Hypotheses& object = objects[instance.object];
-    Detection& detection =
-        found.items.emplace_back(poses::make_detection(*object.model, instance.candidate));
-    detection.density = instance.candidate.proposed.support;
-    detection.runner_up_density =
-        poses::support_elsewhere(object.items, instance.candidate.proposed.center, *object.model);
-  }
-  return found;
+  return poses::make_detections(
+      poses::find_instances(searches, scan), params, [&](const poses::Instance& instance) {
+        const poses::Candidate& candidate = instance.candidate;
+        const Hypotheses& object = objects[instance.object];
+        Detection detection =
+            poses::make_detection(*object.model, candidate, params.terms.confidence);
+        detection.density = candidate.proposed.support;
+        detection.runner_up_density =
+            poses::support_elsewhere(object.items, candidate.proposed.center, *object.model);
+        return detection;
+      });
 }
 
 const auto registered = poses::with_segment_params(

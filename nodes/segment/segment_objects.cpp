@@ -36,9 +36,10 @@ std::vector<Octave> voters_for(const Model& model, const FeatureSet& scene_featu
   return voters;
 }
 
-Detection make_detection(const LiveVotes& object, const poses::Candidate& candidate) {
+Detection make_detection(const LiveVotes& object, const poses::Candidate& candidate,
+                         const poses::ConfidenceTerms& terms) {
   const Model& model = *object.votes->model;
-  Detection detection = poses::make_detection(model, candidate);
+  Detection detection = poses::make_detection(model, candidate, terms);
   detection.density = density::raw_density(*object.raw, candidate.proposed);
   detection.runner_up_density =
       density::runner_up_density(*object.votes, object.raw->density, candidate.proposed.center,
@@ -83,10 +84,11 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
                                voters_for(*object.votes->model, scene_features)};
     searches.emplace_back(sought, propose_from(object, scan, params.terms.shift));
   }
-  Detections found;
-  for (const poses::Instance& instance : poses::find_instances(searches, scan))
-    found.items.push_back(make_detection(objects[instance.object], instance.candidate));
-  return found;
+  return poses::make_detections(
+      poses::find_instances(searches, scan), params, [&](const poses::Instance& instance) {
+        return make_detection(objects[instance.object], instance.candidate,
+                              params.terms.confidence);
+      });
 }
 
 const auto registered = poses::with_segment_params(

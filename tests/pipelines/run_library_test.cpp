@@ -27,9 +27,21 @@ TEST_CASE("a stale, a damaged and an unwritable cache", "[run]") {
 
 TEST_CASE("what another build trained is not taken from the cache", "[run]") {
   const World& w = world();
-  const fs::path other = w.folder / "other-build";
+  const fs::path here = fs::path(POSEVOTE_BINARY).parent_path(), there = w.folder / "other-build";
+  const fs::path other = there / "posevote";
+  fs::create_directories(there / "lib");
   fs::copy_file(POSEVOTE_BINARY, other);
-  std::ofstream(other, std::ios::binary | std::ios::app) << '\n';
+  for (const auto& entry : fs::directory_iterator(here / "lib"))
+    if (entry.path().filename().string().starts_with("libposevote.so") && !entry.is_symlink()) {
+      const fs::path library = there / "lib" / entry.path().filename();
+      fs::copy_file(entry.path(), library);
+      std::ofstream(library, std::ios::binary | std::ios::app) << '\n';
+    }
+  fs::copy(here / "lib", there / "lib",
+           fs::copy_options::recursive | fs::copy_options::skip_existing |
+               fs::copy_options::copy_symlinks);
+  fs::copy(here / "share", there / "share",
+           fs::copy_options::recursive | fs::copy_options::copy_symlinks);
   const std::string run = "run demo --models " + w.models.string() + " " + w.scans_argument() +
                           " --cache " + (w.folder / "shared-cache").string() + " --out ";
   const auto libraries_after = [&](const std::string& out, const std::string& program) {

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -85,6 +86,29 @@ TEST_CASE("the files are complete after every frame", "[write]") {
   const auto failures = json(folder / "out/failures.json");
   REQUIRE(failures.size() == 2);
   CHECK(failures[1]["what"] == "empty");
+}
+
+TEST_CASE(
+    "a pose is written as a matrix, a quaternion and a translation; what was rejected with why",
+    "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out", false);
+  Detections chef = one_chef();
+  Detection& item = chef.items[0];
+  item.T_scene_model = Eigen::Translation3d(1, 2, 3) *
+                       Eigen::AngleAxisd(-1.5707963267948966, Eigen::Vector3d::UnitX());
+  chef.rejected = {item};
+  chef.rejected[0].why = "confidence 0.20 is below min_confidence 0.50";
+  formats::ResultsWriter(folder / "out").write(frame(0), chef, {});
+  const nlohmann::json results = json(folder / "out/results.json");
+  CHECK(results["about"]["units"] == "m, rad, s");
+  const nlohmann::json written = results["frames"][0];
+  const nlohmann::json q = written["detections"][0]["q_wxyz"];
+  CHECK(q[0] == Approx(std::sqrt(0.5)));  // of the two quaternions the one with w >= 0
+  CHECK(q[1] == Approx(-std::sqrt(0.5)));
+  CHECK(written["detections"][0]["t_m"] == nlohmann::json({1.0, 2.0, 3.0}));
+  CHECK(!written["detections"][0].contains("why"));
+  CHECK(written["rejected"][0]["why"] == "confidence 0.20 is below min_confidence 0.50");
 }
 
 TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[write]") {

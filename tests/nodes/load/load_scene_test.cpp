@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+
 #include "nodes/data/files.hpp"
 #include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
@@ -13,6 +15,33 @@ TEST_CASE("load_scene: point files in mm and m", "[load]") {
   CHECK(run_node<Scan>("load_scene", {}, scene).points(0, 2) == 300);
   CHECK(run_node<Scan>("load_scene", {{"unit", "mm"}}, scene).points(0, 2) == Approx(0.3));
   CHECK_THROWS_AS(run_node<Scan>("load_scene", {{"unit", "inch"}}, scene), std::invalid_argument);
+}
+
+TEST_CASE("load_scene: scans from memory are as those from files", "[load]") {
+  const TempDir dir;
+  SceneFile file, memory;
+  file.path = dir.write("scan.obj", "v 100 200 300\nv 110 200 300\n");
+  LoadedPoints loaded;
+  loaded.scan.points = (PointMatrix(2, 3) << 100, 200, 300, 110, 200, 300).finished();
+  memory.points = std::make_shared<const LoadedPoints>(loaded);
+  const std::map<std::string, std::string> mm{{"unit", "mm"}};
+  CHECK(run_node<Scan>("load_scene", mm, memory).points ==
+        run_node<Scan>("load_scene", mm, file).points);
+  CHECK(run_node<Scan>("load_scene", mm, memory).view.origin.isZero());
+  loaded.knows_sensor = true;
+  loaded.scan.view.origin = {1000, 0, 0};
+  memory.points = std::make_shared<const LoadedPoints>(loaded);
+  CHECK(run_node<Scan>("load_scene", mm, memory).view.origin.x() == 1);
+
+  SceneFile png, image;
+  png.path = dir.write("depth.png", depth_png(2, 1, {0, 1000}));
+  png.camera = image.camera = Camera{10, 10, 0.5, 0.5, 1};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float none : {0.0F, nan, std::numeric_limits<float>::infinity()}) {
+    image.depth = std::make_shared<const LoadedDepth>(LoadedDepth{2, 1, {none, 1}});
+    CHECK(run_node<Scan>("load_scene", {}, image).points ==
+          run_node<Scan>("load_scene", {}, png).points);
+  }
 }
 
 TEST_CASE("load_scene: the data set's camera goes before the parameters", "[load]") {

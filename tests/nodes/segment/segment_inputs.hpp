@@ -37,10 +37,14 @@ inline SegmentInputs inputs_of(const std::vector<Placed>& bodies, const std::vec
 
 using Values = std::map<std::string, std::string>;
 
-inline std::vector<Detection> segment(const SegmentInputs& in, const Values& values = {}) {
+/// With what is rejected.
+inline Detections segment_all(const SegmentInputs& in, const Values& values = {}) {
   return run_node<Detections>("segment_objects", values, in.votes, in.densities, in.features,
-                              in.scan, Scale{kResolution})
-      .items;
+                              in.scan, Scale{kResolution});
+}
+
+inline std::vector<Detection> segment(const SegmentInputs& in, const Values& values = {}) {
+  return segment_all(in, values).items;
 }
 
 inline double turn_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {

@@ -136,7 +136,31 @@ TEST_CASE("ICP can be switched off, and then the mode itself is the pose", "[seg
 TEST_CASE("what scores too low is rejected", "[segment]") {
   const SegmentInputs inputs = inputs_of({kLeft}, {1});
   REQUIRE(segment(inputs).size() == 1);
-  CHECK(segment(inputs, {{"min_score", "1"}}).empty());
+  const Detections none = segment_all(inputs, {{"min_score", "1"}});
+  CHECK(none.items.empty());
+  REQUIRE(!none.rejected.empty());
+  CHECK(none.rejected[0].why.find("is below min_score 1.00") != std::string::npos);
+}
+
+TEST_CASE("the best poses of what is not found are told, with what speaks against them",
+          "[segment]") {
+  const SegmentInputs inputs = inputs_of({kLeft}, {1, 3});
+  const Detections found = segment_all(inputs);
+  REQUIRE(found.items.size() == 1);
+  std::size_t of_absent = 0;
+  for (const Detection& rejected : found.rejected) {
+    CHECK(rejected.confidence < 0.5);
+    CHECK(rejected.why.find("is below min_") != std::string::npos);
+    if (rejected.obj_id != 3) continue;
+    ++of_absent;
+    double against = 0;
+    for (const double clue : rejected.against) against += clue;
+    CHECK(against > 2);  // log odds
+  }
+  CHECK(of_absent >= 1);
+  CHECK(of_absent <= 3);
+  for (std::size_t i = 1; i < found.rejected.size(); ++i)
+    CHECK(found.rejected[i - 1].confidence >= found.rejected[i].confidence);
 }
 
 TEST_CASE("lengths and normals that cannot be are refused", "[segment]") {
