@@ -18,6 +18,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Numbers of one width, so that they compare by value.
+std::string padded(const std::string& text) {
+  constexpr std::size_t kWidth = 20;
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+    if (end == at) {
+      out += text[at++];
+      continue;
+    }
+    const std::size_t first = std::min(text.find_first_not_of('0', at), end);
+    out.append(kWidth - std::min(kWidth, end - first), '0').append(text, first, end - first);
+    at = end;
+  }
+  return out;
+}
+
 std::vector<fs::path> expand_glob(const std::string& pattern) {
   glob_t found{};
   std::vector<fs::path> paths;
@@ -48,6 +65,12 @@ std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted
   return paths;
 }
 
+/// As people count: scan2 before scan10.
+bool in_natural_order(const fs::path& a, const fs::path& b) {
+  const std::string left = a.string(), right = b.string();
+  return std::pair(padded(left), left) < std::pair(padded(right), right);
+}
+
 /// Names after the file, with the number in front where two files share a name.
 void name_scenes(std::vector<SceneEntry>& scenes) {
   std::map<std::string, int> uses;
@@ -66,7 +89,7 @@ std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
   std::vector<fs::path> paths;
   for (const std::string& argument : arguments)
     for (fs::path& path : expand(argument, formats::Wanted::kAny)) paths.push_back(std::move(path));
-  std::sort(paths.begin(), paths.end());
+  std::sort(paths.begin(), paths.end(), in_natural_order);
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   std::vector<SceneEntry> scenes;
   for (const fs::path& path : paths) {

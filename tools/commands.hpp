@@ -27,7 +27,7 @@ struct RunCommand {
   std::string on_error = "skip";
   std::size_t threads = 0, tokens = 0;
   std::uint64_t seed = 0;
-  bool resume = false, quiet = false;
+  bool resume = false, overwrite = false, quiet = false;
 };
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted);
 

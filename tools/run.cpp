@@ -103,9 +103,17 @@ bool writes_results(const Configuration& configuration) {
   });
 }
 
+/// Takes away what a run writes, and nothing else that may lie there.
+void remove_earlier_run(const fs::path& out) {
+  for (const char* file : {"results.csv", "results.json", "failures.json", "effective.yaml",
+                           "trace.json", "pictures", "overlays", "correspondences"})
+    fs::remove_all(out / file);
+}
+
 /// Makes the files for the results and leaves out the scans that an earlier run answered.
 void begin_run(const RunCommand& command, const Configuration& configuration,
                const ModelLibrary& library, std::vector<SceneEntry>& scenes) {
+  if (command.overwrite) remove_earlier_run(command.out);
   if (!writes_results(configuration)) {
     spdlog::warn("{}: no write_results in the pipeline: no results.csv is written",
                  configuration.pipeline);

@@ -189,8 +189,9 @@ std::set<std::size_t> begin_results(const fs::path& out, bool resume,
   const fs::path csv = out / "results.csv";
   const fs::path results = out / "results.json";
   if (!resume && (fs::exists(csv) || fs::exists(results)))
-    throw std::invalid_argument(out.string() +
-                                ": holds another run; choose another --out or give --resume");
+    throw std::invalid_argument(
+        out.string() +
+        ": holds another run; choose another --out, or give --resume or --overwrite");
   fs::create_directories(out);
   const std::vector<ordered_json> frames = read_frames(results, "im_id").items;
   check_same_scans(results, frames, scans);

@@ -157,3 +157,15 @@ TEST_CASE("without a config: units by size, instances unasked", "[run]") {
   CHECK_THAT(run("odd", odd, world().scans_argument()).output,
              Catch::Contains("4.359 could be mm or m: read as m; say --model-unit"));
 }
+
+TEST_CASE("overwrite takes away an earlier run, and nothing else", "[run]") {
+  const World& w = world();
+  const std::string one = "--scenes " + (w.scans / "000001.ply").string();
+  REQUIRE(w.run("over", w.scans_argument()).status == 0);
+  w.folder.write("over/of_mine.txt", "kept");
+  CHECK(w.run("over", one + " --overwrite --resume").status == 2);
+  CHECK(frames("over").size() == 3);
+  CHECK(w.run("over", one + " --overwrite").status == 0);
+  CHECK(frames("over").size() == 1);
+  CHECK(fs::exists(w.folder / "over/of_mine.txt"));
+}

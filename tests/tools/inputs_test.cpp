@@ -26,6 +26,16 @@ TEST_CASE("scans are numbered by one sort over files, folders and globs", "[inpu
   }
 }
 
+TEST_CASE("scans come in the order in which people count", "[inputs]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"scan10.ply", "scan2.ply", "scan002.ply", "scan1_b.ply", "scan.ply"})
+    folder.write(name, "");
+  std::vector<std::string> names;
+  for (const SceneEntry& scene : list_scenes({folder.path().string()}))
+    names.push_back(scene.file.path.stem().string());
+  CHECK(names == std::vector<std::string>{"scan", "scan1_b", "scan002", "scan2", "scan10"});
+}
+
 TEST_CASE("an argument that matches nothing is named", "[inputs]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(list_scenes({"/nowhere/x.ply"}),

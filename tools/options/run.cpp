@@ -55,7 +55,11 @@ void add_options(CLI::App& app, RunCommand& command) {
   app.add_option("--cache", command.cache,
                  "Folder for trained libraries; default ~/.cache/posevote")
       ->type_name("DIR");
-  app.add_flag("--resume", command.resume, "Go on in an --out that a run has begun");
+  CLI::Option* resume =
+      app.add_flag("--resume", command.resume, "Go on in an --out that a run has begun");
+  app.add_flag("--overwrite", command.overwrite,
+               "Take away what an earlier run left in --out, before the first frame")
+      ->excludes(resume);
   app.add_option("--shard", command.shard, "Only every N-th scan, from the I-th on")
       ->type_name("I/N");
   app.add_option("--on-error", command.on_error, "After a model or a frame that fails")
