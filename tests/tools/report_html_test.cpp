@@ -43,6 +43,16 @@ TEST_CASE("a template: text is escaped, markup is not, lists repeat what they en
   CHECK_THROWS_WITH(html::fill("{{title", slots), "the template lacks }}");
 }
 
+TEST_CASE("the viewer is part of the program, with the licence of three.js", "[report]") {
+  const std::string script(html::kViewerScript);
+  CHECK(script.find("Permission is hereby granted, free of charge") != std::string::npos);
+  CHECK(script.find("THREE.OrbitControls") != std::string::npos);
+  for (const char* part : {"1_decode", "2_scene", "3_stage", "4_panel", "5_cards", "6_main"})
+    CHECK(script.find(read_text(std::filesystem::path(POSEVOTE_SOURCE_DIR) / "tools/report/page" /
+                                (std::string(part) + ".js"))) != std::string::npos);
+  CHECK(script.find("</script") == std::string::npos);
+}
+
 TEST_CASE("the page's template is that of the source", "[report]") {
   CHECK(html::kPageTemplate ==
         read_text(std::filesystem::path(POSEVOTE_SOURCE_DIR) / "tools/report/page.html"));

@@ -46,8 +46,10 @@ const graph::PlannedNode& find_planned(const graph::Plan& plan, const std::strin
 }
 
 Replay::Replay(const graph::Plan& plan, const graph::Constants& constants,
-               const std::vector<graph::Value>& inputs)
-    : plan_(plan), needed_(nodes_before(plan, plan.result)), values_(plan.streams.size()) {
+               const std::vector<graph::Value>& inputs, std::optional<int> stream)
+    : plan_(plan),
+      needed_(nodes_before(plan, stream.value_or(plan.result))),
+      values_(plan.streams.size()) {
   for (const auto& [name, value] : constants) values_[number_of(plan, name)] = value.value;
   for (std::size_t i = 0; i < inputs.size(); ++i)
     values_[std::size_t(plan.inputs.at(i))] = inputs[i];

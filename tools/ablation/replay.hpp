@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace posevote::ablation {
 
 class Replay {
  public:
-  /// Runs all nodes that the plan's result depends on. `constants`: from fold_constants; `inputs`:
-  /// in the plan's order. Keeps a reference to the plan. Throws what a node throws.
+  /// Runs all nodes that the plan's result depends on, or `stream`, a number in the plan.
+  /// `constants`: from fold_constants; `inputs`: in the plan's order. Keeps a reference to the plan.
+  /// Throws what a node throws.
   Replay(const graph::Plan& plan, const graph::Constants& constants,
-         const std::vector<graph::Value>& inputs);
+         const std::vector<graph::Value>& inputs, std::optional<int> stream = std::nullopt);
 
   /// The result if the node of that name were this one. It and those behind it read these values
   /// `instead`, by stream; other nodes are not run again for them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of an HTML page. What is called `markup` is put in as it is; all other text is escaped.
-// The page is well-formed XML, too: every tag is closed.
+// Every tag is closed.
 #pragma once
 
 #include <limits>

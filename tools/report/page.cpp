@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "tools/report/html.hpp"
 #include "tools/report/template.hpp"
 
@@ -15,6 +17,11 @@ std::string page(const std::string& title, const std::vector<Section>& sections)
   }
   whole.lists["contents"].resize(sections.size() > 1 ? 1 : 0);
   for (Slots& contents : whole.lists["contents"]) contents.lists["links"] = links;
+  const bool shows_runs = std::any_of(sections.begin(), sections.end(), [](const Section& section) {
+    return section.markup.find("<div class=\"run\"") != std::string::npos;
+  });
+  if (shows_runs) whole.lists["viewer"] = {{{{"script", std::string(kViewerScript)}}, {}}};
+  whole.lists.try_emplace("viewer");
   return fill(kPageTemplate, whole);
 }
 

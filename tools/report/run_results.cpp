@@ -2,6 +2,7 @@
 #include "tools/report/run_results.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -30,38 +31,73 @@ std::string text(const Json& json, const std::string& key) {
   return value.is_string() ? value.get<std::string>() : "";
 }
 
+/// A whole number that an int holds; else 0.
+int whole(const Json& json, const std::string& key) {
+  const double value = number(json, key);
+  return std::abs(value) < 2e9 ? static_cast<int>(value) : 0;
+}
+
+NamedNumbers numbers(const Json& json) {
+  NamedNumbers list;
+  if (!json.is_object()) return list;
+  for (const auto& [name, value] : json.items())
+    if (value.is_number()) list.emplace_back(name, value.get<double>());
+  return list;
+}
+
+std::vector<double> pose(const Json& json) {
+  std::vector<double> matrix;
+  for (const Json& value : json)
+    if (value.is_number() && std::isfinite(value.get<double>()))
+      matrix.push_back(value.get<double>());
+  return matrix.size() == 16 && json.size() == 16 ? matrix : std::vector<double>();
+}
+
 FoundObject to_object(const Json& json) {
   FoundObject found{text(json, "model"),
+                    whole(json, "obj_id"),
                     number(json, "confidence"),
+                    number(json, "score"),
                     number(json, "density"),
                     number(json, "runner_up_density"),
                     number(json, "inlier_fraction"),
-                    number(json, "rmse_m")};
+                    number(json, "rmse_m"),
+                    pose(member(json, "T_scene_model")),
+                    numbers(member(json, "clues")),
+                    numbers(member(json, "against")),
+                    text(json, "why")};
   if (found.model.empty()) found.model = "object " + member(json, "obj_id").dump();
   return found;
 }
 
 AnsweredFrame to_frame(const Json& json) {
-  AnsweredFrame frame{
-      number(json, "frame"), text(json, "file"), text(json, "name"), number(json, "seconds"), {}};
-  // Before pictures' names were written, they were the scans'.
+  AnsweredFrame frame;
+  frame.number = number(json, "frame");
+  frame.file = text(json, "file");
+  frame.name = text(json, "name");
+  // Before names were written, they were the scans'.
   if (frame.name.empty()) frame.name = fs::path(frame.file).stem().string();
+  frame.scene_id = whole(json, "scene_id");
+  frame.im_id = whole(json, "im_id");
+  frame.seconds = number(json, "seconds");
   for (const Json& found : member(json, "detections")) frame.found.push_back(to_object(found));
+  for (const Json& best : member(json, "rejected")) frame.rejected.push_back(to_object(best));
+  for (const Json& warning : member(json, "warnings"))
+    frame.warnings.push_back(text(warning, "node") + ": " + text(warning, "what"));
+  frame.stages = numbers(member(json, "stages"));
   return frame;
 }
 
 /// Summed up anew: the run's own totals are of its last start only.
 class StageSums {
  public:
-  void add(const Json& stages) {
-    if (!stages.is_object()) return;
-    for (const auto& [name, value] : stages.items()) {
-      if (!value.is_number()) continue;
+  void add(const NamedNumbers& stages) {
+    for (const auto& [name, seconds] : stages) {
       graph::NodeTimes& stage = sums_[name];
       stage.node = name;
       ++stage.calls;
-      stage.total += value.get<double>();
-      stage.max = std::max(stage.max, value.get<double>());
+      stage.total += seconds;
+      stage.max = std::max(stage.max, seconds);
     }
   }
 
@@ -90,7 +126,7 @@ RunResults read_run(const fs::path& folder) {
   StageSums stages;
   for (const Json& json : answered.items) {
     run.frames.push_back(to_frame(json));
-    stages.add(member(json, "stages"));
+    stages.add(run.frames.back().stages);
   }
   for (const Json& json : failed.items)
     run.failures.push_back(

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/trace.hpp"
@@ -11,18 +12,28 @@
 
 namespace posevote {
 
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
 /// What is missing, or is no number, is NaN; text is empty.
 struct FoundObject {
   std::string model;
-  double confidence = 0, density = 0, runner_up_density = 0, inlier_fraction = 0, rmse = 0;
+  int obj_id = 0;
+  double confidence = 0, score = 0, density = 0, runner_up_density = 0, inlier_fraction = 0,
+         rmse = 0;
+  std::vector<double> T_scene_model;  ///< 16 finite numbers row by row [m], or none
+  NamedNumbers clues, against;
+  std::string why;  ///< of a rejected one
 };
 
 struct AnsweredFrame {
   double number = 0;
   std::string file;
-  std::string name;  ///< of its picture, UTF-8
+  std::string name;  ///< UTF-8
+  int scene_id = 0, im_id = 0;
   double seconds = 0;
-  std::vector<FoundObject> found;
+  std::vector<FoundObject> found, rejected;
+  std::vector<std::string> warnings;  ///< "node: what"
+  NamedNumbers stages;                ///< seconds by node
 };
 
 struct FailedFrame {

@@ -10,7 +10,6 @@
 
 #include "nodes/formats/file_bytes.hpp"
 #include "tools/median.hpp"
-#include "tools/report/frames.hpp"
 #include "tools/report/sections.hpp"
 #include "tools/text.hpp"
 
@@ -69,19 +68,24 @@ std::string histogram(const std::vector<double>& confidences) {
   return text + "<path d=\"M0 39.5H200\"/></svg>";
 }
 
-std::string models(const RunResults& run) {
+/// How often each model was found; also those that never were.
+std::string models(const RunResults& run, const page::RunInputs& inputs) {
   struct Model {
     std::vector<double> confidences;
     std::size_t frames = 0;
     const AnsweredFrame* last = nullptr;
   };
   std::map<std::string, Model> models;
-  for (const AnsweredFrame& frame : run.frames)
+  for (const SoughtModel& model : inputs.models()) models[model.name];
+  for (const LeftOutModel& model : run.left_out) models.erase(model.name);  // told above
+  for (const AnsweredFrame& frame : run.frames) {
+    for (const FoundObject& best : frame.rejected) models[best.model];
     for (const FoundObject& found : frame.found) {
       Model& model = models[found.model];
       if (std::isfinite(found.confidence)) model.confidences.push_back(found.confidence);
       if (std::exchange(model.last, &frame) != &frame) ++model.frames;
     }
+  }
   if (models.empty()) return "";
   std::vector<html::Row> rows;
   rows.reserve(models.size());
@@ -89,7 +93,7 @@ std::string models(const RunResults& run) {
     rows.push_back({escape_markup(name), std::to_string(model.confidences.size()),
                     std::to_string(model.frames),
                     model.confidences.empty() ? "-" : html::number(median(model.confidences), 3),
-                    histogram(model.confidences)});
+                    model.frames == 0 ? "never found" : histogram(model.confidences)});
   return html::heading("Models") + html::table({{"model"},
                                                 {"detections", html::Kind::kNumber},
                                                 {"in frames", html::Kind::kNumber},
@@ -107,6 +111,14 @@ std::string left_out(const RunResults& run) {
          html::table({{"model"}, {"cause", html::Kind::kLong}}, rows);
 }
 
+/// A share of the whole.
+std::string bar(double share) {
+  return fmt::format(
+      "<svg class=\"bars\" width=\"200\" height=\"12\" viewBox=\"0 0 200 12\" role=\"img\" "
+      "aria-label=\"share\"><rect y=\"1\" width=\"{:.1f}\" height=\"10\"/></svg>",
+      std::isfinite(share) ? 200 * share : 0.0);
+}
+
 std::string stages(const RunResults& run) {
   if (run.stages.empty()) return "";
   double sum = 0;
@@ -115,13 +127,14 @@ std::string stages(const RunResults& run) {
   for (const graph::NodeTimes& stage : run.stages)
     rows.push_back({escape_markup(stage.node), html::number(stage.total, 2),
                     html::number(1000 * stage.mean(), 1), html::number(1000 * stage.max, 1),
-                    html::number(100 * stage.total / sum, 1)});
-  return html::heading("Stages") + html::table({{"stage"},
-                                                {"total [s]", html::Kind::kNumber},
-                                                {"mean [ms]", html::Kind::kNumber},
-                                                {"longest [ms]", html::Kind::kNumber},
-                                                {"share [%]", html::Kind::kNumber}},
-                                               rows);
+                    html::number(100 * stage.total / sum, 1), bar(stage.total / sum)});
+  return html::heading("Time per node") + html::table({{"node"},
+                                                       {"total [s]", html::Kind::kNumber},
+                                                       {"mean [ms]", html::Kind::kNumber},
+                                                       {"longest [ms]", html::Kind::kNumber},
+                                                       {"share [%]", html::Kind::kNumber},
+                                                       {""}},
+                                                      rows);
 }
 
 std::string failures(const RunResults& run) {
@@ -155,15 +168,33 @@ std::string parameters(const fs::path& folder) {
   }
 }
 
+/// What was typed; more than once where a run was resumed.
+std::string command_lines(const std::vector<RunRecord>& records) {
+  if (records.empty()) return "";
+  std::string lines;
+  for (const RunRecord& record : records)
+    lines += "cd " + shell_line({record.folder}) + "\n" + shell_line(record.command) + "\n";
+  return html::heading("Command line") + "<pre class=\"command\">" + escape_markup(lines) +
+         "</pre>\n";
+}
+
+std::string notes(const page::RunInputs& inputs) {
+  std::string text;
+  for (const std::string& note : inputs.notes()) text += html::paragraph(note);
+  return text;
+}
+
 }  // namespace
 
-std::vector<html::Section> run_sections(const fs::path& folder, const std::string& where,
-                                        std::size_t& pictures) {
-  if (!holds_run(folder)) return {};
+html::Section run_section(const fs::path& folder, const std::string& where,
+                          const page::TruthSource& truth, const page::RunView& view,
+                          const std::string& id) {
   const RunResults run = read_run(folder);
-  return {{where.empty() ? "Run" : where,
-           summary(run) + left_out(run) + models(run) + stages(run) + failures(run) +
-               frames_markup(run, folder, pictures, where.empty()) + parameters(folder)}};
+  page::RunInputs inputs(folder, truth);
+  const std::string viewer = page::run_markup(run, inputs, view, id);
+  return {where.empty() ? "Run" : where, summary(run) + left_out(run) + notes(inputs) + viewer +
+                                             models(run, inputs) + stages(run) + failures(run) +
+                                             command_lines(inputs.records()) + parameters(folder)};
 }
 
 }  // namespace posevote

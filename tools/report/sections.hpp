@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "tools/report/html.hpp"
+#include "tools/report/report.hpp"
+#include "tools/report/run_data.hpp"
 
 namespace posevote {
 
-/// Of `posevote run`. `where`: the folder's name in the title; empty: the page is about it.
-/// `pictures`: how many the page still may hold.
-std::vector<html::Section> run_sections(const std::filesystem::path& folder,
-                                        const std::string& where, std::size_t& pictures);
+/// Of `posevote run`, from the folder that holds it. `where`: the folder's name in the title; empty:
+/// the page is about it. `id`: unique on the page.
+html::Section run_section(const std::filesystem::path& folder, const std::string& where,
+                          const page::TruthSource& truth, const page::RunView& view,
+                          const std::string& id);
 
 /// Of `posevote evaluate`.
 std::vector<html::Section> evaluation_sections(const std::filesystem::path& folder,

@@ -11,6 +11,8 @@ namespace posevote::html {
 
 /// The frame of the page and its looks: tools/report/page.html, part of the program.
 extern const std::string_view kPageTemplate;
+/// What shows scans in 3D, for a <script>: three.js with its licence, and tools/report/page/*.js.
+extern const std::string_view kViewerScript;
 
 struct Slots {
   std::map<std::string, std::string> texts;         ///< by name

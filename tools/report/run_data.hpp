@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run as the page's viewer (tools/report/page/) takes it: what was found as JSON, and the scans,
+// models and votes as packed bytes, each in an element of its own that is decoded when it is shown.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/report/run_inputs.hpp"
+#include "tools/report/run_results.hpp"
+
+namespace posevote::page {
+
+/// What the page is to show of a run.
+struct RunView {
+  std::size_t points = 0;          ///< of each scan, at most; none where 0
+  std::size_t faces = 4000;        ///< of each model, at most
+  std::string votes;               ///< name or obj_id of an object; empty: none
+  std::vector<std::string> scans;  ///< only those of these names; empty: all
+};
+
+/// Frames of a run, answered or failed, that `view` takes in.
+std::size_t count_scans(const RunResults& run, const RunView& view);
+
+/// Markup that the viewer fills. `id`: unique on the page. Throws std::invalid_argument where the
+/// votes are asked for and cannot be shown.
+std::string run_markup(const RunResults& run, RunInputs& inputs, const RunView& view,
+                       const std::string& id);
+
+/// JSON that can stand in a <script>: ASCII, and nothing in it that could end the element.
+std::string script_json(const nlohmann::ordered_json& json);
+
+/// What there is to say of one object in one scan, in sentences, for the details of its card.
+std::vector<std::string> sentences(const FoundObject& object);
+
+}  // namespace posevote::page

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/shown_scan.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "nodes/pictures/painter.hpp"
+#include "tools/report/model_list.hpp"
+#include "tools/report/votes.hpp"
+
+namespace posevote::page {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+/// The box that holds all but a fiftieth of the points at either end of each axis.
+Eigen::AlignedBox3f usual_box(const PointMatrix& points) {
+  Eigen::Vector3f low, high;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<float> values(points.col(axis).begin(), points.col(axis).end());
+    std::sort(values.begin(), values.end());
+    const std::size_t out = values.size() / 50;
+    low(axis) = values[out];
+    high(axis) = values[values.size() - 1 - out];
+  }
+  return {low, high};
+}
+
+/// From where to look: the sensor's side, upright as in the pictures.
+Json view_of(const PointMatrix& points, const Eigen::Vector3f& eye, const Eigen::Matrix3f& axes) {
+  const Eigen::AlignedBox3f box = usual_box(points);
+  return {{"eye", to_json(eye)},
+          {"forward", to_json(Eigen::Vector3f(axes.row(2)))},
+          {"up", to_json(Eigen::Vector3f(-axes.row(1)))},
+          {"center", to_json(box.center())},
+          {"size", to_json(box.sizes())}};
+}
+
+std::string show_points(const Scan& scan, std::size_t most, const std::string& id, Json& json) {
+  const Thinned thinned = thin(scan.points, most);
+  if (thinned.rows.empty()) throw std::runtime_error("the scan holds no point");
+  PointMatrix points(std::ssize(thinned.rows), 3);
+  for (std::size_t i = 0; i < thinned.rows.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = scan.points.row(thinned.rows[i]);
+  const Eigen::Matrix3f axes =
+      pictures::perspective_of({points, PointMatrix(0, 3), scan.view}, PointMatrix(0, 3), 100).axes;
+  const Eigen::Vector3f light =
+      axes.transpose() * Eigen::Vector3f(-0.4F, -0.6F, -1.0F).normalized();
+  const Packed packed = pack_points(points, shade(scan, thinned, light));
+  json["scan"] = to_json(packed, id);
+  json["scan"]["true_points"] = scan.points.rows();
+  json["scan"]["spacing"] = thinned.spacing;
+  json["view"] = view_of(points, scan.view.origin, axes);
+  return blob(id, packed.bytes);
+}
+
+std::string show_votes(const SceneFile& scene, const RunInputs& inputs, const VotesWanted& votes,
+                       std::size_t most, const std::string& id, Json& json) {
+  const ShownVotes shown =
+      votes_of(inputs.configuration(), votes.constants, scene, votes.obj_id, most);
+  const Packed packed = pack_points(shown.centers, shown.heat);
+  json["votes"] = to_json(packed, id);
+  json["votes"]["true_points"] = shown.count;
+  json["votes"]["largest"] = shown.largest;
+  json["votes"]["obj_id"] = votes.obj_id;
+  return blob(id, packed.bytes);
+}
+
+}  // namespace
+
+Json to_json(const Packed& packed, const std::string& element) {
+  return {{"element", element},
+          {"points", packed.points},
+          {"faces", packed.faces},
+          {"corner", to_json(packed.corner)},
+          {"step", packed.step}};
+}
+
+std::string show_scan(const ScanName& scan, const RunInputs& inputs, const VotesWanted* votes,
+                      std::size_t points, const std::string& id, Json& json) {
+  if (points == 0) {
+    json["note"] = "The page has no room for this scan; --size takes more.";
+    return "";
+  }
+  std::string blobs;
+  try {
+    blobs = show_points(inputs.load(scan.file, scan.scene_id, scan.im_id),
+                        votes ? points / 2 : points, id, json);
+    if (votes)
+      blobs += show_votes(inputs.locate(scan.file, scan.scene_id, scan.im_id), inputs, *votes,
+                          points / 2, id + "-votes", json);
+  } catch (const std::exception& error) {
+    json["note"] = std::string("Not shown: ") + error.what();
+  }
+  return blobs;
+}
+
+}  // namespace posevote::page
