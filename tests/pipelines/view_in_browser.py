@@ -36,27 +36,30 @@ def load(browser, page):
     return time.monotonic() - begin
 
 
+def settled(browser):
+    """The picture of the scan once it is drawn."""
+    before, now = None, browser.picture(STAGE)
+    while before != now:
+        time.sleep(0.3)
+        before, now = now, browser.picture(STAGE)
+    return now
+
+
 def check_turning(browser):
-    before = browser.picture(STAGE)
-    check(before == browser.picture(STAGE), "the view changes by itself")
+    before = settled(browser)
     browser.drag(STAGE, 120, 40)
-    check(before != browser.picture(STAGE), "dragging does not turn the view")
-
-
-def tick(browser, kind):
-    """Clicks the first tick of that kind; returns whether the picture is another one."""
-    before = browser.picture(STAGE)
-    browser.click(f".panel label[data-kind={kind}] input")
-    browser.run("document.activeElement.blur()")
-    return before != browser.picture(STAGE)
+    wait_for(lambda: before != browser.picture(STAGE), "dragging does not turn the view")
 
 
 def check_ticks(browser):
+    browser.rest()  # what the mouse points to is lit up
     for kind in ("found", "scan", "truth", "votes"):
-        before = browser.picture(STAGE)
-        check(tick(browser, kind), f"ticking {kind} changes nothing")
-        check(tick(browser, kind), f"ticking {kind} again changes nothing")
-        check(before == browser.picture(STAGE), f"{kind} does not come back as it was")
+        before = settled(browser)
+        for change in (lambda now: now != before, lambda now: now == before):
+            browser.click(f".panel label[data-kind={kind}] input")
+            browser.rest()
+            wait_for(lambda: change(browser.picture(STAGE)),
+                     f"ticking {kind} does not take it away and bring it back")
 
 
 def check_cards(browser):

@@ -88,10 +88,18 @@ class Browser:
         move = {"type": "pointerMove", "duration": 0, "x": 0, "y": 0, "origin": origin}
         moves = [{"type": "pointerMove", "duration": 50, "x": x * i // 4, "y": y * i // 4,
                   "origin": origin} for i in range(1, 5)]
-        steps = [move, {"type": "pointerDown", "button": 0}, *moves, {"type": "pointerUp", "button": 0}]
+        self.point([move, {"type": "pointerDown", "button": 0}, *moves,
+                    {"type": "pointerUp", "button": 0}])
+
+    def point(self, steps):
+        """What the mouse does."""
         self.post("/actions", {"actions": [
             {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
              "actions": steps}]})
+
+    def rest(self):
+        """The mouse in the window's corner, where it points to nothing."""
+        self.point([{"type": "pointerMove", "duration": 0, "x": 1, "y": 1, "origin": "viewport"}])
 
     def complaints(self):
         """Errors and warnings on the console since the last call."""

@@ -51,7 +51,7 @@ posevote.colours = (() => {
   const css = (rgb) => `rgb(${rgb.join(', ')})`;
   const gradient = (of) =>
       `linear-gradient(to right, ${[...Array(11).keys()].map((i) => css(of(i / 10))).join(', ')})`;
-  return {confidence, density, grey, css, gradient, truth: [123, 31, 162]};
+  return {confidence, density, grey, css, gradient, truth: [214, 0, 147]};
 })();
 
 /// An element with text or children, which are never read as markup.

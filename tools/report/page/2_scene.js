@@ -117,7 +117,7 @@ posevote.scene = (() => {
           posed(item, (model) => wires(model, posevote.colours.truth)), false, item);
     if (scan.votes && scan.votes.points) {
       const points = cloud(scan.votes, posevote.colours.density,
-                           discs(1.3 * scan.scan.spacing, {depthTest: false}));
+                           discs(0.7 * scan.scan.spacing, {depthTest: false}));
       points.renderOrder = 1;
       add('votes', run.models.find((model) => model.obj_id === scan.votes.obj_id).name,
           posevote.colours.density(0.8), points, true, scan.votes);
@@ -134,12 +134,27 @@ posevote.scene = (() => {
     }
   }
 
+  /// The box of a scan without its outliers, and of what was found in it.
+  function boxOf(run, scan, view) {
+    const box = new THREE.Box3().setFromCenterAndSize(new THREE.Vector3(...view.center),
+                                                      new THREE.Vector3(...view.size));
+    for (const item of scan.found) {
+      const model = run.models[item.model];
+      if (!model.surface || item.T.length !== 16) continue;
+      const geometry = surfaceOf(model);
+      if (!geometry.boundingBox) geometry.computeBoundingBox();
+      box.union(geometry.boundingBox.clone().applyMatrix4(new THREE.Matrix4().set(...item.T)));
+    }
+    return box;
+  }
+
   /// A camera that sees the scan from its sensor's side, and what it turns about.
-  function cameraFor(scan, aspect) {
+  function cameraFor(run, scan, aspect) {
     const camera = new THREE.PerspectiveCamera(kFieldOfView, aspect, 0.01, 100);
     const view = scan.view || posesView(scan);
-    const center = new THREE.Vector3(...view.center);
-    const radius = Math.max(0.5 * new THREE.Vector3(...view.size).length(), 1e-4);
+    const box = boxOf(run, scan, view);
+    const center = box.getCenter(new THREE.Vector3());
+    const radius = Math.max(0.5 * box.getSize(new THREE.Vector3()).length(), 1e-4);
     let back = new THREE.Vector3(...view.eye).sub(center);
     if (back.length() < 0.5 * radius) back = new THREE.Vector3(...view.forward).negate();
     const half = Math.min(1, aspect) * Math.tan(0.5 * camera.fov * Math.PI / 180);

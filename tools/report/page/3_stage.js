@@ -57,10 +57,10 @@ posevote.stage = (() => {
     }
 
     show(run, scan) {
-      posevote.scene.dispose(this.parts);
+      const before = this.parts;
       if (this.controls) this.controls.dispose();
       this.parts = posevote.scene.parts(run, scan);
-      const {camera, center} = posevote.scene.cameraFor(scan, this.aspect());
+      const {camera, center} = posevote.scene.cameraFor(run, scan, this.aspect());
       this.camera = camera;
       this.scene = posevote.scene.assemble(this.parts, camera);
       this.controls = new THREE.OrbitControls(camera, this.canvas);
@@ -70,6 +70,7 @@ posevote.stage = (() => {
       this.controls.addEventListener('change', () => this.draw());
       this.controls.update();
       this.resize();
+      posevote.scene.dispose(before);  // only now: shaders that the new scan uses, too, are kept
       return this.parts;
     }
 
@@ -168,11 +169,12 @@ posevote.stage = (() => {
       const {width, height} = canvas;
       this.renderer.setSize(width, height, false);
       const parts = posevote.scene.parts(run, scan).filter((part) => part.kind !== 'votes');
-      const {camera} = posevote.scene.cameraFor(scan, width / height);
+      const {camera} = posevote.scene.cameraFor(run, scan, width / height);
       this.renderer.clear();
       this.renderer.render(posevote.scene.assemble(parts, camera), camera);
       canvas.getContext('2d').drawImage(this.canvas, 0, 0);
-      posevote.scene.dispose(parts);
+      posevote.scene.dispose(this.parts || []);  // of the last one: so its shaders serve this one
+      this.parts = parts;
     }
   }
 

@@ -8,7 +8,7 @@ posevote.start = (element) => {
     element.append(make('p', {}, 'There is no scan to show.'));
     return;
   }
-  const canvas = make('canvas', {tabIndex: 0});
+  const canvas = make('canvas');
   const shown = make('p', {className: 'shown'});
   const missing = make('p', {className: 'missing', hidden: true});
   const panel = make('div', {className: 'panel'});
