@@ -88,7 +88,7 @@ nlohmann::json data_of(const std::string& page, const std::string& id = "run0") 
 
 Detection found(const std::string& model, double confidence) {
   Detection found;
-  found.obj_id = 1;
+  found.obj_id = model == "chicken" ? 2 : 1;
   found.model = model;
   found.confidence = confidence;
   found.density = 1234;
@@ -197,7 +197,8 @@ TEST_CASE("torn and strange lines of results are left out", "[report]") {
       "{\"frame\": 1e300, \"stages\": {\"a\": \"b\"}, \"detections\": [{\"confidence\": null}]},\n"
       "{\"frame\": 2, \"detections\": [{\"confidence\": -1e300, \"obj_id\": \"<\"}, []]}\n");
   page = whole_page(folder);
-  CHECK_THAT(page, Contains("<dt>frames answered</dt><dd>3</dd>") && !Contains("nan"));
+  CHECK_THAT(without_scripts(page),
+             Contains("<dt>frames answered</dt><dd>3</dd>") && !Contains("nan"));
   folder.write("results.json", "\x89\xff{{{");
   folder.write("failures.json", "");
   CHECK_THAT(whole_page(folder), Contains("<dt>frames answered</dt><dd>0</dd>"));

@@ -3,6 +3,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "nodes/geometry/extent.hpp"
@@ -45,11 +46,13 @@ int ModelList::obj_id_of(const std::string& name_or_id) const {
 
 std::string ModelList::show(const std::map<int, Mesh>& surfaces, std::size_t faces,
                             const std::string& id) {
+  constexpr std::size_t kMostFaces = 100'000;  // of all
+  const std::size_t most = std::min(faces, kMostFaces / std::max<std::size_t>(1, models_.size()));
   std::string blobs;
   for (std::size_t i = 0; i < models_.size(); ++i) {
     const auto found = surfaces.find(models_[i]["obj_id"].get<int>());
     if (found == surfaces.end() || found->second.points.rows() == 0) continue;
-    const Mesh simple = simplify(found->second, faces);
+    const Mesh simple = simplify(found->second, most);
     const std::string element = fmt::format("{}-model{}", id, i);
     const Packed packed = pack_mesh(simple.points, simple.faces);
     models_[i]["surface"] = page::to_json(packed, element);

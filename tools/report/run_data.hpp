@@ -23,8 +23,8 @@ struct RunView {
 /// Frames of a run, answered or failed, that `view` takes in.
 std::size_t count_scans(const RunResults& run, const RunView& view);
 
-/// Markup that the viewer fills. `id`: unique on the page. Throws std::invalid_argument where the
-/// votes are asked for and cannot be shown.
+/// Markup that the viewer fills. `id`: unique on the page. Throws std::invalid_argument where
+/// votes are asked for of an object that there is not, or the models are gone.
 std::string run_markup(const RunResults& run, RunInputs& inputs, const RunView& view,
                        const std::string& id);
 

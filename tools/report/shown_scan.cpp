@@ -88,12 +88,16 @@ std::string show_scan(const ScanName& scan, const RunInputs& inputs, const Votes
   try {
     blobs = show_points(inputs.load(scan.file, scan.scene_id, scan.im_id),
                         votes ? points / 2 : points, id, json);
-    if (votes)
-      blobs += show_votes(inputs.locate(scan.file, scan.scene_id, scan.im_id), inputs, *votes,
-                          points / 2, id + "-votes", json);
   } catch (const std::exception& error) {
     json["note"] = std::string("Not shown: ") + error.what();
+    return "";
   }
+  if (votes) try {
+      blobs += show_votes(inputs.locate(scan.file, scan.scene_id, scan.im_id), inputs, *votes,
+                          points / 2, id + "-votes", json);
+    } catch (const std::exception& error) {
+      json["note"] = std::string("No votes: ") + error.what();
+    }
   return blobs;
 }
 

@@ -94,7 +94,7 @@ posevote.panel = (() => {
 
   /// The heading of parts of one kind; with a tick for all of them where there are several.
   function heading(kind, parts) {
-    if (parts.length < 2) return make('h4', {}, kTitles[kind]);
+    if (parts.length < 2 || !parts.some((part) => part.object)) return make('h4', {}, kTitles[kind]);
     const tick = make('input', {type: 'checkbox', checked: parts.every((part) => part.visible)});
     tick.addEventListener('change', () => {
       for (const part of parts)

@@ -80,7 +80,7 @@ posevote.cards = (() => {
       const canvas = make('canvas', {width: 256, height: 192});
       const card = make('button', {type: 'button', className: 'card', title: scan.file}, canvas,
           make('div', {}, make('b', {}, scan.name), make('div', {className: 'line'}, ...line(this.run, scan)),
-               scan.note ? make('span', {className: 'bad'}, 'scan not shown') : null));
+               scan.scan ? null : make('span', {className: 'bad'}, 'scan not shown')));
       card.addEventListener('click', () => this.open(scan));
       if (this.thumbnails) this.thumbnails.observe(canvas, this.run, scan);
       this.made.set(scan, card);
