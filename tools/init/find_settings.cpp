@@ -82,6 +82,7 @@ void tell_units(const ScanLook& look, const std::string& trials, Report& report)
   finding.evidence = differ ? "models are in " + s.model_unit + ", scans in " + s.scene_unit + ": "
                             : "models and scans are in " + s.model_unit + ", not metres: ";
   finding.evidence += sizes(report, look);
+  if (!differ) finding.evidence += format("; as metres it would be %.4g m across", look.diagonal);
   if (!trials.empty()) finding.evidence += ". Tried and worse: " + trials;
   finding.remedy =
       "the config says load_models.unit: " + s.model_unit + ", load_scene.unit: " + s.scene_unit;

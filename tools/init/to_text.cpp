@@ -41,7 +41,8 @@ std::string surface(const ModelLook& model) {
 }
 
 std::string normals(const ModelLook& model) {
-  if (!model.outward) return model.turned > 0.5 ? "faces inside out" : "none needed";
+  if (model.turned > 0.5) return "faces inside out";
+  if (!model.outward) return model.faces > 0 ? "of the faces" : "none";
   return format("%.0f %% outward", 100 * *model.outward);
 }
 

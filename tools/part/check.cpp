@@ -48,7 +48,7 @@ RunCommand make_run(const Command& command, const fs::path& folder) {
   run.cache = (fs::path(command.out) / "cache").string();
   run.seed = static_cast<std::uint64_t>(command.seed);
   // What the simulation wrote; a set's small parts in mm could pass for metres.
-  run.set = {"load_models.unit=mm", "write_picture.every=4"};
+  run.set = {"load_models.unit=mm", "write_picture.every=3"};
   run.quiet = true;
   return run;
 }

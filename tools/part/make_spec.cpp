@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "tools/part/part.hpp"
 
 namespace posevote::part {
 namespace {
 
-constexpr int kClutter[] = {0, 4, 8, 14};  ///< bodies: from in full view to nearly buried
-constexpr int kCopies = 2;                 ///< of one part in a scan; of several parts one each
-constexpr double kRadius = 0.75;           ///< of the heap, x diagonal of the largest part
-constexpr double kLargestClutter = 0.8;    ///< likewise
+/// From in full view to nearly buried.
+struct Heap {
+  int clutter = 0;      ///< bodies
+  bool below = false;   ///< whether the parts lie under all of them
+  double radius = 0.7;  ///< within which all are dropped, x diagonal of the largest part
+};
+constexpr Heap kHeaps[] = {{0, false, 0.7}, {5, false, 0.6}, {6, true, 0.5}, {12, true, 0.45}};
+constexpr int kCopies = 2;               ///< of one part in a scan; of several parts one each
+constexpr double kLargestClutter = 0.8;  ///< x diagonal
 
 }  // namespace
 
@@ -29,10 +36,12 @@ Spec make_spec(const Command& command, double range, double diagonal) {
   scene.sensor = command.sensor;
   if (command.noise) scene.noise = *command.noise;
   scene.distance = range;
-  // A heap of more bodies is as wide as it is high.
-  scene.radius = kRadius * diagonal * std::max(1.0, static_cast<double>(scene.objects.size()) / 4);
+  // More parts make a wider heap.
+  const double spread = std::max(1.0, std::sqrt(static_cast<double>(scene.objects.size()) / 2));
   for (int i = 0; i < command.scans; ++i) {
-    scene.clutter = kClutter[static_cast<std::size_t>(i) % std::size(kClutter)];
+    const Heap& heap = kHeaps[static_cast<std::size_t>(i) % std::size(kHeaps)];
+    scene.clutter = heap.clutter, scene.objects_below = heap.below;
+    scene.radius = heap.radius * diagonal * spread;
     scene.elevation = 40 + 40.0 * ((i * 5) % 8) / 8;
     scene.azimuth = (i * 137) % 360;
     spec.scenes.push_back(scene);

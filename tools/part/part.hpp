@@ -59,8 +59,8 @@ void write(const Tally& tally, const Command& command);
 /// none is.
 std::optional<double> threshold_for(const std::vector<Verdict>& verdicts, double precision);
 
-/// Of instances nearer than `range` and more visible than `visible`, nine in ten and a half are
-/// found: the largest such part of what was tried; nothing where there is none with ten instances.
+/// Up to `range` and down to `visible` 95 % are found, at the edges, too: the largest such part of
+/// what was tried; nothing where there is none with ten instances.
 struct Reach {
   double range = 0, visible = 0;
   int found = 0, instances = 0;

@@ -110,7 +110,7 @@ std::string sentence(const Tally& tally, int obj_id) {
   for (const double range : tally.ranges)
     if (const Count here = count(tally, obj_id, range, 0); here.recall() >= best.recall())
       best = here;
-  return name + format(": not found reliably: even in full view at the best range %d of %d.\n",
+  return name + format(": not found reliably: even in full view at the best range only %d of %d.\n",
                        best.found, best.instances);
 }
 
@@ -168,14 +168,19 @@ std::optional<double> threshold_for(const std::vector<Verdict>& verdicts, double
 std::optional<Reach> reach_of(const Tally& tally, int obj_id) {
   std::optional<Reach> best;
   for (const double range : tally.ranges)
-    for (const double visible : kSteps) {
-      Count count;
-      for (const Outcome& outcome : tally.outcomes)
-        if (outcome.obj_id == obj_id && outcome.range <= range && outcome.visible >= visible)
-          count.add(outcome);
-      if (count.instances < kFewest || count.recall() < kWanted) continue;
-      if (!best || count.instances > best->instances)
-        best = Reach{range, visible, count.found, count.instances};
+    for (std::size_t step = 0; step < std::size(kSteps); ++step) {
+      Count all, farthest, most_hidden;
+      for (const Outcome& one : tally.outcomes) {
+        if (one.obj_id != obj_id || one.range > range || one.visible < kSteps[step]) continue;
+        all.add(one);
+        if (one.range == range) farthest.add(one);
+        if (step_of(one.visible) == static_cast<int>(step)) most_hidden.add(one);
+      }
+      // The many at its middle must not speak for the few at its edges.
+      const bool holds = all.instances >= kFewest && all.recall() >= kWanted &&
+                         farthest.recall() >= kWanted && most_hidden.recall() >= kWanted;
+      if (holds && (!best || all.instances > best->instances))
+        best = Reach{range, kSteps[step], all.found, all.instances};
     }
   return best;
 }

@@ -95,7 +95,7 @@ Sensor read_sensor(const std::string& name_or_file) {
   const std::string near = graph::closest_name(name_or_file, known);
   throw std::invalid_argument("no sensor and no file is called '" + name_or_file + "'" +
                               (near.empty() ? "" : ", did you mean '" + near + "'?") +
-                              " There are " + graph::join_list(known));
+                              (near.empty() ? "; " : " ") + "there are " + graph::join_list(known));
 }
 
 std::string list_sensors() {

@@ -90,7 +90,8 @@ std::shared_ptr<const Mesh> stretched(const Mesh& mesh, double most, Random& ran
   return out;
 }
 
-/// Objects and clutter in mixed order, so that either may lie on the other; the ground last.
+/// Objects and clutter, in mixed order unless objects are to lie below, so that either may lie on
+/// the other; the ground last.
 std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& random) {
   const bool bin = scene.ground == "bin";
   std::vector<Body> bodies;
@@ -101,7 +102,7 @@ std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& 
     for (Body& body : bodies) body.mesh = stretched(*body.mesh, scene.inexact, random);
   for (int i = 0; i < scene.clutter; ++i)
     bodies.push_back({studio.clutter[random.next() % kClutter], 0, Eigen::Isometry3d::Identity()});
-  for (std::size_t i = bodies.size(); i > 1; --i)
+  for (std::size_t i = scene.objects_below ? 0 : bodies.size(); i > 1; --i)
     std::swap(bodies[i - 1], bodies[random.next() % i]);
   settle(bodies, scene.radius, bin, random);
   if (scene.ground != "unseen")

@@ -52,6 +52,8 @@ const std::vector<ParamSpec>& scene_params() {
       make_param<SceneSpec>("inexact", &SceneSpec::inexact, "", "Objects differ from models.",
                             in_range(0, 0.2)),
       make_param<SceneSpec>("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
+      make_param<SceneSpec>("objects_below", &SceneSpec::objects_below, "", "Under the clutter.",
+                            {}),
       make_param<SceneSpec>("radius", &SceneSpec::radius, "m", "Bodies drop inside.",
                             in_range(0.005, 5)),
       make_param<SceneSpec>("least_surface", &SceneSpec::least_surface, "", "Seen of each object.",

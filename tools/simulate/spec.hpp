@@ -27,6 +27,7 @@ struct SceneSpec {
   double inexact = 0;          ///< real things are stretched along each axis by up to this share
   std::vector<int> objects;    ///< obj_id of each instance
   int clutter = 3;             ///< bodies that are no models
+  bool objects_below = false;  ///< they are dropped before all clutter, not in mixed order
   double radius = 0.15;        ///< within which bodies are dropped; of a bin, half its side [m]
   double least_surface = 0;    ///< that is seen of each object's; else bodies are dropped anew
   double most_surface = 1;     ///< likewise
