@@ -10,12 +10,12 @@ namespace {
 
 /// From in full view to nearly buried.
 struct Heap {
-  int clutter = 0;      ///< bodies
-  bool below = false;   ///< whether the parts lie under all of them
-  double radius = 0.7;  ///< within which all are dropped, x diagonal of the largest part
+  int clutter = 0;     ///< bodies
+  bool above = false;  ///< whether all of them lie above the parts, between fences
 };
-constexpr Heap kHeaps[] = {{0, false, 0.7}, {5, false, 0.6}, {6, true, 0.5}, {12, true, 0.45}};
-constexpr int kCopies = 2;               ///< of one part in a scan; of several parts one each
+constexpr Heap kHeaps[] = {{0, false}, {5, false}, {5, true}, {10, true}};
+constexpr double kRadius = 0.7;  ///< within which all are dropped, x diagonal of the largest part
+constexpr int kCopies = 2;       ///< of one part in a scan; of several parts one each
 constexpr double kLargestClutter = 0.8;  ///< x diagonal
 
 }  // namespace
@@ -38,10 +38,11 @@ Spec make_spec(const Command& command, double range, double diagonal) {
   scene.distance = range;
   // More parts make a wider heap.
   const double spread = std::max(1.0, std::sqrt(static_cast<double>(scene.objects.size()) / 2));
+  scene.radius = kRadius * diagonal * spread;
   for (int i = 0; i < command.scans; ++i) {
     const Heap& heap = kHeaps[static_cast<std::size_t>(i) % std::size(kHeaps)];
-    scene.clutter = heap.clutter, scene.objects_below = heap.below;
-    scene.radius = heap.radius * diagonal * spread;
+    scene.clutter = heap.clutter, scene.objects_below = heap.above;
+    scene.ground = heap.above ? "fenced" : "table";
     scene.elevation = 40 + 40.0 * ((i * 5) % 8) / 8;
     scene.azimuth = (i * 137) % 360;
     spec.scenes.push_back(scene);

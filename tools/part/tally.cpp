@@ -101,11 +101,12 @@ std::string threshold_text(const Tally& tally, double precision) {
 std::string sentence(const Tally& tally, int obj_id) {
   const std::string& name = tally.parts[static_cast<std::size_t>(obj_id) - 1];
   if (const auto reach = reach_of(tally, obj_id))
-    return name + format(
-                      ": found in %.0f %% (%d of %d) when nearer than %g m and more than %.0f %% "
-                      "visible.\n",
-                      100.0 * reach->found / reach->instances, reach->found, reach->instances,
-                      reach->range, 100 * reach->visible);
+    return name +
+           format(
+               ": found in %.0f %% (%d of %d) when not farther than %g m and at least %.0f %% "
+               "visible.\n",
+               100.0 * reach->found / reach->instances, reach->found, reach->instances,
+               reach->range, 100 * reach->visible);
   Count best;
   for (const double range : tally.ranges)
     if (const Count here = count(tally, obj_id, range, 0); here.recall() >= best.recall())

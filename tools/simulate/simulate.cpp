@@ -104,7 +104,7 @@ std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& 
     bodies.push_back({studio.clutter[random.next() % kClutter], 0, Eigen::Isometry3d::Identity()});
   for (std::size_t i = scene.objects_below ? 0 : bodies.size(); i > 1; --i)
     std::swap(bodies[i - 1], bodies[random.next() % i]);
-  settle(bodies, scene.radius, bin, random);
+  settle(bodies, scene.radius, bin || scene.ground == "fenced", random);
   if (scene.ground != "unseen")
     bodies.push_back(bin ? make_bin(scene.radius)
                          : make_table(std::max(kTableSide, kTableRadii * scene.radius)));

@@ -45,7 +45,7 @@ const std::vector<ParamSpec>& scene_params() {
       make_param<SceneSpec>("count", &SceneSpec::count, "", "Images of this kind.",
                             in_range(1, 10000)),
       make_param<SceneSpec>("ground", &SceneSpec::ground, "", "What bodies lie on.",
-                            one_of({"table", "bin", "unseen"})),
+                            one_of({"table", "bin", "fenced", "unseen"})),
       make_param<SceneSpec>("sensor", &SceneSpec::sensor, "", "Sensor.", {}),
       make_param<SceneSpec>("noise", &SceneSpec::noise, "m", "Deviation of ranges.",
                             in_range(0, 0.05)),
