@@ -97,7 +97,7 @@ TEST_CASE("a spec may name meshes and sensors of one's own", "[part]") {
   refused("models: [{file: x.stl, shape: horn}]\nscenes: [{objects: [1]}]", "one of them");
   refused("models: [{file: x.stl}]\nscenes: [{objects: [1]}]", "x.stl: ");
   refused("models: [{shape: horn}]\nscenes: [{objects: [1], sensor: lazer}]",
-          "bad.yaml:2:34: scenes[1].sensor: no sensor and no file is called 'lazer', did you mean "
+          "bad.yaml:2:33: scenes[1].sensor: no sensor and no file is called 'lazer', did you mean "
           "'laser'?");
 }
 
