@@ -49,6 +49,10 @@ TEST_CASE("the points of a scanned ball lie on it, within the noise", "[simulate
         {"sweep", 0.0005},
         {"rgbd", std::hypot(0.001425 * 0.5, 0.00285 * 0.5 / 3.46, 0.001 / 3.46)},
         {"speckle", std::hypot(0.0014 * 0.5, 0.0002 * 0.5, 0.0007 * 0.5 / 3.46)},
+        {"structured_light", std::hypot(0.00003 + 0.00007 * 0.5, 0.00005 / 3.46)},
+        {"tof", std::hypot(0.001 + 0.001 * 0.5, 0.0005 / 3.46)},
+        {"stereo",
+         std::hypot(std::hypot(0.001 * 0.5, 0.0003 * 0.5, 0.0004 * 0.5 / 3.46), 0.0005 / 3.46)},
         {"plain", 0.001}};
     REQUIRE(frontal > 1000);
     CHECK(std::abs(sum / frontal) < 0.0002);

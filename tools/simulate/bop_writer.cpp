@@ -52,14 +52,19 @@ std::string encode_png(const formats::DepthImage& depth) {
 /// Rounded to 1e-9: beyond, mathematics libraries differ, and files should not.
 double rounded(double value) { return std::round(value * 1e9) / 1e9 + 0.0; }
 
+ordered_json list(const Eigen::Vector3d& v) {
+  return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
+}
+
 ordered_json box(const PixelBox& box) { return {box.x, box.y, box.width, box.height}; }
 
-/// A turn about the origin as BOP writes transforms: 4 x 4.
-ordered_json row_by_row(const Eigen::Matrix3d& turn) {
+/// A turn about a place [m] as BOP writes transforms: 4 x 4, in mm.
+ordered_json row_by_row(const Eigen::Matrix3d& turn, const Eigen::Vector3d& center) {
+  const Eigen::Vector3d offset = 1000 * (center - turn * center);
   ordered_json list;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) list.push_back(rounded(turn(row, column)));
-    list.push_back(0.0);
+    list.push_back(rounded(offset[row]));
   }
   for (const double value : {0.0, 0.0, 0.0, 1.0}) list.push_back(value);
   return list;
@@ -105,8 +110,11 @@ void BopWriter::add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& sym
   for (int axis = 0; axis < 3; ++axis) entry["size_" + axes[axis]] = rounded(size[axis] * 1000.0);
   if (symmetry.is_round)
     entry["symmetries_continuous"] = {{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}};
+  for (const Eigen::Vector3d& axis : symmetry.axes)
+    entry["symmetries_continuous"].push_back(
+        {{"axis", list(axis)}, {"offset", list(1000 * symmetry.center)}});
   for (const Eigen::Matrix3d& turn : symmetry.turns)
-    entry["symmetries_discrete"].push_back(row_by_row(turn));
+    entry["symmetries_discrete"].push_back(row_by_row(turn, symmetry.center));
   models_info_[std::to_string(obj_id)] = entry;
 }
 

@@ -44,6 +44,19 @@ Mass mass_of(const Mesh& mesh) {
   return mass;
 }
 
+/// The same of any mesh: what is open, or has faces inside, may have no sensible volume, and counts
+/// as half of its box.
+Mass mass_of_any(const Mesh& mesh) {
+  constexpr double kLeast = 1e-3;  // of the box
+  Eigen::AlignedBox3d box;
+  for (const auto& point : mesh.points.rowwise()) box.extend(point.transpose().cast<double>());
+  const Mass mass = mass_of(mesh);
+  if (mass.volume > kLeast * box.volume() && mass.center.allFinite() && box.contains(mass.center))
+    return mass;
+  const double thinnest = kLeast * box.diagonal().maxCoeff();  // a plate of no thickness has some
+  return {box.sizes().cwiseMax(thinnest).prod() / 2, box.center()};
+}
+
 /// The corners that reach farthest in any of the 26 directions of a cube's neighbours:
 /// about their convex hull, of a size that collisions are found fast with.
 std::set<std::uint32_t> extremes(const PointMatrix& points,
@@ -65,7 +78,7 @@ std::set<std::uint32_t> extremes(const PointMatrix& points,
 /// A body in Bullet, its frame at the centre of its mass.
 class Solid {
  public:
-  explicit Solid(const Mesh& mesh) : Solid(mesh, mass_of(mesh)) {}
+  explicit Solid(const Mesh& mesh) : Solid(mesh, mass_of_any(mesh)) {}
 
   Solid(const Mesh& mesh, const Mass& whole)
       : center_(whole.center),

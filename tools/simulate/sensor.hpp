@@ -30,7 +30,7 @@ struct Sensor {
   double window_shift = 0;     ///< and of where a pixel looks [pixels]
 };
 
-/// Names of sensors: "laser", "sweep", "rgbd", "speckle", "plain".
+/// Names of sensors: "laser", "rgbd" ...
 const std::vector<std::string>& sensor_names();
 /// Throws std::invalid_argument for an unknown name.
 Sensor find_sensor(const std::string& name);

@@ -19,10 +19,12 @@ const std::vector<std::string>& shape_names();
 /// Those of them that are finely meshed, which clutter is made of.
 const std::vector<std::string>& fine_shape_names();
 
-/// How a kind maps onto itself, about its bounding box' centre.
+/// How a kind maps onto itself, about its bounding box' centre; meshes of the user's own about any.
 struct ShapeSymmetry {
-  bool is_round = false;                 ///< however it is turned about z
-  std::vector<Eigen::Matrix3d> turns{};  ///< without the identity
+  bool is_round = false;                             ///< however it is turned about z
+  std::vector<Eigen::Matrix3d> turns{};              ///< without the identity
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< stays where it is [m]
+  std::vector<Eigen::Vector3d> axes{};               ///< round about these, too
 };
 ShapeSymmetry symmetry_of(const std::string& shape);
 

@@ -7,14 +7,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "graph/parallel.hpp"
 #include "tools/simulate/bop_writer.hpp"
+#include "tools/simulate/own_mesh.hpp"
 #include "tools/simulate/physics.hpp"
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/scene.hpp"
+#include "tools/simulate/sensor_file.hpp"
 #include "tools/simulate/shapes.hpp"
 #include "tools/simulate/spec.hpp"
 
@@ -23,8 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTableSide = 1.2;      // [m]
+constexpr double kTableSide = 1.2;      // at least [m]
+constexpr double kTableRadii = 4;       // x radius, at least
 constexpr double kTargetHeight = 0.05;  // the sensor looks at what lies on the ground [m]
+constexpr double kNearest = 0.3;        // from nearer it looks lower [m]
 constexpr int kArrangements = 100;      // tried for one image, before giving up
 constexpr std::size_t kClutter = 12;    // different bodies that are no models
 
@@ -34,13 +39,20 @@ using SharedMesh = std::shared_ptr<const Mesh>;
 struct Studio {
   Spec spec;
   std::vector<SharedMesh> models, clutter;
+  std::map<std::string, Sensor> sensors;  ///< as scenes call them
 };
 
 SharedMesh make_model(const ModelSpec& model) {
+  if (!model.file.empty())
+    return std::make_shared<const Mesh>(read_own_mesh(model.file, model.unit));
   const auto seed = static_cast<std::uint64_t>(model.seed);
   return std::make_shared<const Mesh>(
       model.x > 0 ? make_shape(model.shape, seed, Eigen::Vector3d(model.x, model.y, model.z))
                   : make_shape(model.shape, seed, model.size));
+}
+
+ShapeSymmetry symmetry_of_model(const ModelSpec& model, const Mesh& mesh) {
+  return model.file.empty() ? symmetry_of(model.shape) : find_symmetry(mesh, model.file);
 }
 
 /// Bodies of kinds that no model is of, as long as there are such kinds.
@@ -51,7 +63,7 @@ std::vector<SharedMesh> make_clutter(const Spec& spec) {
   std::vector<SharedMesh> clutter(kClutter);
   graph::parallel_for(kClutter, 1, [&](std::size_t i) {
     Random random(static_cast<std::uint64_t>(spec.seed), ~std::uint64_t{i});  // no image's stream
-    const double size = random.uniform(0.08, 0.2);
+    const double size = random.uniform(0.08, 0.2) * (spec.clutter_size / 0.2);
     clutter[i] =
         std::make_shared<const Mesh>(make_shape(kinds[i % kinds.size()], random.next(), size));
   });
@@ -59,7 +71,10 @@ std::vector<SharedMesh> make_clutter(const Spec& spec) {
 }
 
 Studio open_studio(const Spec& spec) {
-  Studio studio{spec, {}, {}};
+  Studio studio{spec, {}, {}, {}};
+  for (const SceneSpec& scene : spec.scenes)
+    if (!studio.sensors.contains(scene.sensor))
+      studio.sensors[scene.sensor] = read_sensor(scene.sensor);
   for (const ModelSpec& model : studio.spec.models) studio.models.push_back(make_model(model));
   const auto wants_clutter = [](const SceneSpec& scene) { return scene.clutter > 0; };
   if (std::any_of(studio.spec.scenes.begin(), studio.spec.scenes.end(), wants_clutter))
@@ -75,7 +90,8 @@ std::shared_ptr<const Mesh> stretched(const Mesh& mesh, double most, Random& ran
   return out;
 }
 
-/// Objects and clutter in mixed order, so that either may lie on the other; the ground last.
+/// Objects and clutter, in mixed order unless objects are to lie below, so that either may lie on
+/// the other; the ground last.
 std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& random) {
   const bool bin = scene.ground == "bin";
   std::vector<Body> bodies;
@@ -86,11 +102,12 @@ std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& 
     for (Body& body : bodies) body.mesh = stretched(*body.mesh, scene.inexact, random);
   for (int i = 0; i < scene.clutter; ++i)
     bodies.push_back({studio.clutter[random.next() % kClutter], 0, Eigen::Isometry3d::Identity()});
-  for (std::size_t i = bodies.size(); i > 1; --i)
+  for (std::size_t i = scene.objects_below ? 0 : bodies.size(); i > 1; --i)
     std::swap(bodies[i - 1], bodies[random.next() % i]);
-  settle(bodies, scene.radius, bin, random);
+  settle(bodies, scene.radius, bin || scene.ground == "fenced", random);
   if (scene.ground != "unseen")
-    bodies.push_back(bin ? make_bin(scene.radius) : make_table(kTableSide));
+    bodies.push_back(bin ? make_bin(scene.radius)
+                         : make_table(std::max(kTableSide, kTableRadii * scene.radius)));
   return bodies;
 }
 
@@ -116,10 +133,11 @@ bool fits(const Image& image, const SceneSpec& scene) {
 bool find_view(const SceneSpec& scene, Image& image) {
   constexpr int kViews = 12;
   constexpr double kDegree = std::numbers::pi / 180;
+  const double height = kTargetHeight * std::min(1.0, scene.distance / kNearest);
   for (int i = 0; i < kViews; ++i) {
     const double azimuth = scene.azimuth + 360.0 * i / kViews;
-    image.T_world_sensor = look_at({0, 0, kTargetHeight}, scene.distance, scene.elevation * kDegree,
-                                   azimuth * kDegree);
+    image.T_world_sensor =
+        look_at({0, 0, height}, scene.distance, scene.elevation * kDegree, azimuth * kDegree);
     if (fits(image, scene)) return true;
   }
   return false;
@@ -128,7 +146,7 @@ bool find_view(const SceneSpec& scene, Image& image) {
 Image make_image(const Studio& studio, std::size_t index) {
   const SceneSpec& scene = studio.spec.scenes[index];
   Image image;
-  image.sensor = find_sensor(scene.sensor);
+  image.sensor = studio.sensors.at(scene.sensor);
   if (scene.noise != kSensorsOwn) image.sensor.noise = scene.noise, image.sensor.noise_z2 = 0;
   Random random(static_cast<std::uint64_t>(studio.spec.seed), index);
   for (int i = 0; i < kArrangements; ++i) {
@@ -193,7 +211,10 @@ void remove_unfinished(const fs::path& folder) {
 }  // namespace
 
 void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
-  const Spec spec = read_spec(spec_file);
+  simulate(read_spec(spec_file), out, step);
+}
+
+void simulate(const Spec& spec, const fs::path& out, std::size_t step) {
   // Under its name there is a whole set or none. An empty folder stays the one it is, for it may be
   // a mount point, or where somebody's shell stands: what is made moves there at the end.
   const fs::path folder = out.has_filename() ? out : out.parent_path();
@@ -207,7 +228,7 @@ void simulate(const std::string& spec_file, const fs::path& out, std::size_t ste
   BopWriter writer(unfinished, spec.least_visible);
   for (std::size_t i = 0; i < studio.models.size(); ++i)
     writer.add_model(static_cast<int>(i) + 1, *studio.models[i],
-                     symmetry_of(studio.spec.models[i].shape));
+                     symmetry_of_model(studio.spec.models[i], *studio.models[i]));
   make_images(studio, step, writer);
   writer.finish();
   if (!exists) return fs::rename(unfinished, folder);

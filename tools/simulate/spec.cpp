@@ -9,8 +9,11 @@
 
 #include "graph/problem.hpp"
 #include "graph/schema.hpp"
+#include "nodes/formats/units.hpp"
 #include "tools/simulate/scanner.hpp"
+#include "tools/simulate/sensor_file.hpp"
 #include "tools/simulate/shapes.hpp"
+#include "tools/simulate/spec_reader.hpp"
 
 namespace posevote {
 namespace {
@@ -25,6 +28,9 @@ const std::vector<ParamSpec>& model_params() {
   static const std::vector<ParamSpec> params{
       make_param<ModelSpec>("shape", &ModelSpec::shape, "", "Kind of object.",
                             one_of(shape_names())),
+      make_param<ModelSpec>("file", &ModelSpec::file, "", "A mesh of one's own.", {}),
+      make_param<ModelSpec>("unit", &ModelSpec::unit, "", "Unit of length in the file.",
+                            one_of(formats::units_or_auto())),
       make_param<ModelSpec>("seed", &ModelSpec::seed, "", "Which one of that kind.",
                             in_range(0, 1e9)),
       make_param<ModelSpec>("size", &ModelSpec::size, "m", "Longest side.", in_range(0.02, 1)),
@@ -39,21 +45,23 @@ const std::vector<ParamSpec>& scene_params() {
       make_param<SceneSpec>("count", &SceneSpec::count, "", "Images of this kind.",
                             in_range(1, 10000)),
       make_param<SceneSpec>("ground", &SceneSpec::ground, "", "What bodies lie on.",
-                            one_of({"table", "bin", "unseen"})),
-      make_param<SceneSpec>("sensor", &SceneSpec::sensor, "", "Sensor.", one_of(sensor_names())),
+                            one_of({"table", "bin", "fenced", "unseen"})),
+      make_param<SceneSpec>("sensor", &SceneSpec::sensor, "", "Sensor.", {}),
       make_param<SceneSpec>("noise", &SceneSpec::noise, "m", "Deviation of ranges.",
                             in_range(0, 0.05)),
       make_param<SceneSpec>("inexact", &SceneSpec::inexact, "", "Objects differ from models.",
                             in_range(0, 0.2)),
       make_param<SceneSpec>("clutter", &SceneSpec::clutter, "", "Other bodies.", in_range(0, 50)),
+      make_param<SceneSpec>("objects_below", &SceneSpec::objects_below, "", "Under the clutter.",
+                            {}),
       make_param<SceneSpec>("radius", &SceneSpec::radius, "m", "Bodies drop inside.",
-                            in_range(0.01, 1)),
+                            in_range(0.005, 5)),
       make_param<SceneSpec>("least_surface", &SceneSpec::least_surface, "", "Seen of each object.",
                             in_range(0, 0.5)),
       make_param<SceneSpec>("most_surface", &SceneSpec::most_surface, "", "Seen of each object.",
                             in_range(0.1, 1)),
       make_param<SceneSpec>("distance", &SceneSpec::distance, "m", "Sensor to table.",
-                            in_range(0.3, 3)),
+                            in_range(0.1, 20)),
       make_param<SceneSpec>("elevation", &SceneSpec::elevation, "deg", "Above table.",
                             in_range(10, 90)),
       make_param<SceneSpec>("azimuth", &SceneSpec::azimuth, "deg", "Around table.",
@@ -64,95 +72,14 @@ const std::vector<ParamSpec>& scene_params() {
 const std::vector<ParamSpec>& file_params() {
   static const std::vector<ParamSpec> params{
       make_param<Spec>("seed", &Spec::seed, "", "Poses and noise.", in_range(0, 1e9)),
+      make_param<Spec>("clutter_size", &Spec::clutter_size, "m", "Of the largest clutter.",
+                       in_range(0.005, 2)),
       make_param<Spec>("least_visible", &Spec::least_visible, "", "Of instances that count.",
                        in_range(0, 1))};
   return params;
 }
 
-/// Reads one file; what is wrong goes to `problems`.
-struct Reader {
-  std::string file;
-  std::vector<graph::Problem> problems;
-
-  Location at(const YAML::Mark& mark) const { return {file, mark.line + 1, mark.column + 1}; }
-  void report(const Location& where, const std::string& subject, const std::string& text) {
-    problems.push_back({where, subject, text});
-  }
-  void report(const YAML::Node& node, const std::string& subject, const std::string& text) {
-    report(at(node.Mark()), subject, text);
-  }
-
-  YAML::Node load() {
-    try {
-      if (!std::filesystem::is_directory(file)) return YAML::LoadFile(file);
-      report({file, 0, 0}, "", "is a folder, expected a YAML file");
-    } catch (const YAML::BadFile&) {
-      report({file, 0, 0}, "", "cannot be read: no such file?");
-    } catch (const YAML::Exception& error) {
-      report(at(error.mark), "", "is not valid YAML: " + error.msg);
-    }
-    return YAML::Node(YAML::NodeType::Undefined);
-  }
-
-  /// Reads a map: plain values by `params` into `target`, `lists` are left to the caller.
-  void read_map(const YAML::Node& map, const std::string& subject,
-                const std::vector<ParamSpec>& params, void* target,
-                const std::vector<std::string>& lists);
-  void read_value(const YAML::Node& value, const std::string& subject, const ParamSpec& param,
-                  void* target);
-  /// The entries of a list; an empty or missing one is a problem.
-  std::vector<YAML::Node> list(const YAML::Node& map, const std::string& subject,
-                               const std::string& key);
-};
-
-void Reader::read_value(const YAML::Node& value, const std::string& subject, const ParamSpec& param,
-                        void* target) {
-  if (!value.IsScalar()) return report(value, subject, "expected one plain value");
-  if (const auto problem = param.set(target, value.Scalar()))
-    report(value, subject, "is '" + value.Scalar() + "', " + *problem);
-}
-
-void Reader::read_map(const YAML::Node& map, const std::string& subject,
-                      const std::vector<ParamSpec>& params, void* target,
-                      const std::vector<std::string>& lists) {
-  if (!map.IsMap()) return report(map, subject, "expected {key: value ...}");
-  std::vector<std::string> known = lists;
-  for (const ParamSpec& param : params) known.push_back(param.name);
-  std::map<std::string, int> line_of;
-  for (const auto& entry : map) {
-    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-    const std::string name = subject.empty() ? key : std::string(subject).append(".").append(key);
-    const auto [first, is_new] = line_of.emplace(key, entry.first.Mark().line + 1);
-    const auto param = std::find_if(params.begin(), params.end(),
-                                    [&](const ParamSpec& other) { return other.name == key; });
-    if (!is_new) {
-      report(entry.first, name, "given twice, first in line " + std::to_string(first->second));
-    } else if (param != params.end()) {
-      read_value(entry.second, name, *param, target);
-    } else if (std::find(lists.begin(), lists.end(), key) == lists.end()) {
-      const std::string near = graph::closest_name(key, known);
-      report(entry.first, name,
-             "unknown key" + (near.empty() ? "" : ", did you mean '" + near + "'?"));
-    }
-  }
-}
-
-std::vector<YAML::Node> Reader::list(const YAML::Node& map, const std::string& subject,
-                                     const std::string& key) {
-  const std::string name = subject.empty() ? key : subject + "." + key;
-  const YAML::Node node = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
-  if (!node.IsDefined()) {
-    if (map.IsMap()) report(map, name, "missing, expected a list");
-    return {};
-  }
-  if (!node.IsSequence() || node.size() == 0) {
-    report(node.IsNull() ? map : node, name, "expected a list of at least one");
-    return {};
-  }
-  return {node.begin(), node.end()};
-}
-
-void read_objects(Reader& reader, const YAML::Node& map, const std::string& subject,
+void read_objects(SpecReader& reader, const YAML::Node& map, const std::string& subject,
                   std::size_t models, SceneSpec& scene) {
   constexpr std::size_t kMost = 100;
   const std::vector<YAML::Node> items = reader.list(map, subject, "objects");
@@ -168,17 +95,49 @@ void read_objects(Reader& reader, const YAML::Node& map, const std::string& subj
   }
 }
 
-Spec read_root(Reader& reader, const YAML::Node& root) {
+/// A path in the file, from where the file stands.
+std::string from_folder_of(const std::string& spec, const std::string& path) {
+  return (std::filesystem::path(spec).parent_path() / path).lexically_normal().string();
+}
+
+void check_model(SpecReader& reader, const YAML::Node& item, const std::string& subject,
+                 ModelSpec& model) {
+  if (!item.IsMap()) return;
+  if (!model.file.empty() && !model.shape.empty())
+    reader.report(item, subject, "has a shape and a file, expected one of them");
+  if (model.file.empty() && !item["shape"].IsDefined())
+    reader.report(item, subject + ".shape", "missing");
+  const int sides = (model.x > 0) + (model.y > 0) + (model.z > 0);
+  if (sides != 0 && sides != 3) reader.report(item, subject, "expected all of x, y, z or none");
+  if (model.file.empty()) return;
+  for (const char* key : {"seed", "size", "x", "y", "z"})
+    if (item[key].IsDefined())
+      reader.report(item[key], subject + "." + key, "is of shapes; a file is as large as it is");
+  model.file = from_folder_of(reader.file, model.file);
+}
+
+void check_sensor(SpecReader& reader, const YAML::Node& item, const std::string& subject,
+                  SceneSpec& scene) {
+  const std::vector<std::string>& known = sensor_names();
+  if (std::find(known.begin(), known.end(), scene.sensor) != known.end()) return;
+  const std::string file = from_folder_of(reader.file, scene.sensor);
+  if (std::filesystem::exists(file)) scene.sensor = file;
+  try {
+    read_sensor(scene.sensor);
+  } catch (const std::exception& error) {
+    const YAML::Node place = item["sensor"];
+    reader.report(place.IsDefined() ? place : item, subject + ".sensor", error.what());
+  }
+}
+
+Spec read_root(SpecReader& reader, const YAML::Node& root) {
   Spec spec;
   reader.read_map(root, "", file_params(), &spec, {"models", "scenes"});
   for (const YAML::Node& item : reader.list(root, "", "models")) {
     const std::string subject = "models[" + std::to_string(spec.models.size() + 1) + "]";
     ModelSpec& model = spec.models.emplace_back();
     reader.read_map(item, subject, model_params(), &model, {});
-    if (item.IsMap() && !item["shape"].IsDefined())
-      reader.report(item, subject + ".shape", "missing");
-    const int sides = (model.x > 0) + (model.y > 0) + (model.z > 0);
-    if (sides != 0 && sides != 3) reader.report(item, subject, "expected all of x, y, z or none");
+    check_model(reader, item, subject, model);
   }
   int number = 0;
   for (const YAML::Node& item : reader.list(root, "", "scenes")) {
@@ -186,6 +145,7 @@ Spec read_root(Reader& reader, const YAML::Node& root) {
     SceneSpec scene;
     reader.read_map(item, subject, scene_params(), &scene, {"objects"});
     read_objects(reader, item, subject, spec.models.size(), scene);
+    check_sensor(reader, item, subject, scene);
     spec.scenes.insert(spec.scenes.end(), static_cast<std::size_t>(std::max(1, scene.count)),
                        scene);
   }
@@ -195,7 +155,7 @@ Spec read_root(Reader& reader, const YAML::Node& root) {
 }  // namespace
 
 Spec read_spec(const std::string& file) {
-  Reader reader{file, {}};
+  SpecReader reader{file, {}};
   const YAML::Node root = reader.load();
   Spec spec;
   if (reader.problems.empty()) {

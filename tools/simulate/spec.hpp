@@ -8,7 +8,9 @@
 namespace posevote {
 
 struct ModelSpec {
-  std::string shape;
+  std::string shape;          ///< of shape_names(); empty where there is a file
+  std::string file;           ///< a mesh of one's own, in any format that models come in
+  std::string unit = "auto";  ///< of the file's lengths
   int seed = 1;
   double size = 0.2;           ///< longest side of the bounding box [m]
   double x = 0, y = 0, z = 0;  ///< all three sides, where given: the shape is stretched to them [m]
@@ -20,11 +22,12 @@ inline constexpr double kSensorsOwn = -1;
 struct SceneSpec {
   int count = 1;                 ///< images, each with another arrangement of its bodies
   std::string ground = "table";  ///< or "bin", or "unseen"
-  std::string sensor = "laser";
+  std::string sensor = "laser";  ///< of sensor_names(), or the file of another (sensor_file.hpp)
   double noise = kSensorsOwn;  ///< deviation of ranges at any distance, instead of the sensor's [m]
   double inexact = 0;          ///< real things are stretched along each axis by up to this share
   std::vector<int> objects;    ///< obj_id of each instance
   int clutter = 3;             ///< bodies that are no models
+  bool objects_below = false;  ///< they are dropped before all clutter, not in mixed order
   double radius = 0.15;        ///< within which bodies are dropped; of a bin, half its side [m]
   double least_surface = 0;    ///< that is seen of each object's; else bodies are dropped anew
   double most_surface = 1;     ///< likewise
@@ -35,12 +38,14 @@ struct SceneSpec {
 
 struct Spec {
   int seed = 1;
-  double least_visible = 0.1;     ///< share of an instance's pixels; less visible ones do not count
+  double least_visible = 0.1;  ///< share of an instance's pixels; less visible ones do not count
+  double clutter_size = 0.2;   ///< longest side of the largest clutter; the least is 0.4 of it [m]
   std::vector<ModelSpec> models;  ///< obj_id 1, 2 ...
   std::vector<SceneSpec> scenes;  ///< one an image: those of a kind are repeated
 };
 
-/// Throws graph::ConfigError with every problem of the file and its place.
+/// Files that it names are sought from its own folder. Throws graph::ConfigError with every problem
+/// of the file and its place.
 Spec read_spec(const std::string& file);
 
 }  // namespace posevote
