@@ -14,6 +14,8 @@ TEST_CASE("how far a task is, how fast it goes and what is left", "[progress]") 
   CHECK(to_text(frames, {12, 4}) == "[12/200] 3 frames/s, 1 min 03 s left");
   CHECK(to_text(frames, {12, 300, "31 found, 1 failed"}) ==
         "[12/200] 0.04 frames/s, 1 h 18 min left, 31 found, 1 failed");
+  CHECK(to_text(frames, {100, 60, "", {}, 10}) == "[100/200] 2 frames/s, 40 s left");
+  CHECK(to_text(frames, {199, 300, "", {}, 100}) == "[199/200] 0.99 frames/s, 0 s left");
   CHECK(to_text(frames, {200, 4}) == "[200/200] 50 frames/s");
   const Task training{"training 4 models"};
   CHECK(to_text(training, {0, 12.4}) == "training 4 models, 12 s");
@@ -28,9 +30,9 @@ TEST_CASE("what takes long is named, and an interrupt", "[progress]") {
   CHECK(to_text({"frames", 9}, {0, 9, "", graph::Activity::Work{"match", "rs1", 7, 0, 0}}) ==
         "[0/9] frames, 9 s; match at rs1 for 7 s");
   const std::atomic<bool> interrupted = true;
+  task = {"frames", 9};
   task.interrupted = &interrupted;
-  CHECK(to_text(task, {0, 9}) ==
-        "training 4 models, 9 s; ending what is begun, Ctrl-C again ends at once");
+  CHECK(to_text(task, {2, 9}) == "[2/9] ending what is begun; Ctrl-C again ends at once");
 }
 
 TEST_CASE("text for a terminal and for a shell", "[text]") {

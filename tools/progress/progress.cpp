@@ -27,23 +27,28 @@ std::string work_text(const graph::Activity::Work& work) {
 std::string count_text(const Task& task, const TaskState& state) {
   std::string text =
       "[" + std::to_string(state.done) + "/" + std::to_string(task.total) + "] " + task.what;
-  if (state.done == 0 || state.seconds <= 0) return text + ", " + duration_text(state.seconds);
-  const double rate = static_cast<double>(state.done) / state.seconds;
+  if (state.done == 0 || state.seconds <= state.waiting)
+    return text + ", " + duration_text(state.seconds);
+  const double rate = static_cast<double>(state.done) / (state.seconds - state.waiting);
   text = "[" + std::to_string(state.done) + "/" + std::to_string(task.total) + "] " +
          format(rate < 10 ? "%.2g " : "%.0f ", rate) + task.what + "/s";
   if (state.done < task.total)
-    text += ", " + duration_text(static_cast<double>(task.total - state.done) / rate) + " left";
+    text += ", " +
+            duration_text(std::max(
+                0.0, static_cast<double>(task.total - state.done) / rate - state.waiting)) +
+            " left";
   return text;
 }
 
 }  // namespace
 
 std::string to_text(const Task& task, const TaskState& state) {
+  if (task.interrupted && *task.interrupted)
+    return "[" + std::to_string(state.done) + "/" + std::to_string(task.total) +
+           "] ending what is begun; Ctrl-C again ends at once";
   std::string text =
       task.total > 0 ? count_text(task, state) : task.what + ", " + duration_text(state.seconds);
   if (!state.note.empty()) text += ", " + state.note;
-  if (task.interrupted && *task.interrupted)
-    return text + "; ending what is begun, Ctrl-C again ends at once";
   if (state.work && state.work->seconds >= kLongCall) text += work_text(*state.work);
   return text;
 }
@@ -70,6 +75,7 @@ Progress::~Progress() {
 void Progress::advance(std::size_t count) {
   const std::lock_guard lock(mutex_);
   done_ += count;
+  advanced_ = seconds();
 }
 
 void Progress::note(std::string text) {
@@ -77,11 +83,15 @@ void Progress::note(std::string text) {
   note_ = std::move(text);
 }
 
+double Progress::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
 TaskState Progress::state() const {
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  return {done_, seconds, note_,
-          task_.activity ? task_.activity->longest() : std::optional<graph::Activity::Work>()};
+  const double now = seconds();
+  return {done_, now, note_,
+          task_.activity ? task_.activity->longest() : std::optional<graph::Activity::Work>(),
+          now - advanced_};
 }
 
 void Progress::show(std::unique_lock<std::mutex>& lock) {

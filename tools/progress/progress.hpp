@@ -19,7 +19,7 @@ struct Task {
   std::size_t total = 0;  ///< 0: nothing is counted
   const graph::Activity* activity = nullptr;  ///< what takes long is named, unless null
   bool shown = true;
-  const std::atomic<bool>* interrupted = nullptr;  ///< by Ctrl-C
+  const std::atomic<bool>* interrupted = nullptr;  ///< by Ctrl-C; of a task that counts
   double patience = 2;  ///< [s] without a sign of life, before the first line in a log
 };
 
@@ -29,10 +29,11 @@ struct TaskState {
   double seconds = 0;  ///< since it began
   std::string note{};
   std::optional<graph::Activity::Work> work{};
+  double waiting = 0;  ///< seconds since the last one was done
 };
 
 /// "[12/200] 3.1 frames/s, 1 min 01 s left, 31 found, 0 failed; match_features at rs12 for 3 s". The
-/// rate is the mean so far; a call of a node is named after two seconds.
+/// rate is the mean until the last one that is done; a call of a node is named after two seconds.
 std::string to_text(const Task& task, const TaskState& state);
 
 /// Shows a task while it lives. Its functions may be called by several threads at a time.
@@ -51,6 +52,7 @@ class Progress {
  private:
   void show(std::unique_lock<std::mutex>& lock);
   TaskState state() const;
+  double seconds() const;
 
   const Task task_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -58,6 +60,7 @@ class Progress {
   std::condition_variable ended_;
   bool end_ = false;
   std::size_t done_ = 0;
+  double advanced_ = 0;  ///< [s] after the beginning
   std::string note_;
   std::thread thread_;
 };
