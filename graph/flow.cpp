@@ -44,7 +44,7 @@ class Runner {
         next_frame_(next_frame),
         options_(options),
         on_result_(on_result),
-        work_(plan, constants, options.stop_on_failure),
+        work_(plan, constants, options),
         expected_(plan.nodes.size() + 1, 0),
         source_(graph_, [this](flow_control& control) { return next(control); }),
         limiter_(graph_, tokens()),

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/activity.hpp"
 #include "graph/plan.hpp"
 #include "graph/trace.hpp"
 
@@ -19,6 +20,7 @@ struct RunOptions {
   std::size_t tokens = 0;        ///< frames in flight; 0: twice the threads
   bool stop_on_failure = false;  ///< nothing after the first failed frame is reported
   const std::atomic<bool>* interrupted = nullptr;  ///< no frame enters once it is true
+  Activity* activity = nullptr;                    ///< where the calls of nodes are told
 };
 
 struct RunSummary {
@@ -52,6 +54,7 @@ struct UntypedResult {
   std::optional<Failure> failure;
   std::vector<Span> spans;
   std::vector<Warning> warnings;
+  Figures figures;
 };
 
 /// See run() in graph/runner.hpp. Throws std::invalid_argument for a constant that is missing or of

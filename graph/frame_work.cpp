@@ -63,9 +63,10 @@ FrameState::FrameState(std::size_t order, UntypedFrame entering, const Plan& pla
   frame.inputs.clear();
 }
 
-FrameWork::FrameWork(const Plan& plan, const Constants& constants, bool stop_on_failure)
+FrameWork::FrameWork(const Plan& plan, const Constants& constants, const RunOptions& options)
     : plan_(plan),
-      stop_on_failure_(stop_on_failure),
+      stop_on_failure_(options.stop_on_failure),
+      activity_(options.activity),
       constants_(plan.streams.size()),
       states_(plan.nodes.size()),
       before_(plan.nodes.size()),
@@ -134,8 +135,10 @@ void FrameWork::call(std::size_t i, const std::vector<Value>& inputs, FrameState
   span.thread = oneapi::tbb::this_task_arena::current_thread_index();
   span.begin = microseconds();
   const double begin = clock_.begin();
+  Activity::Call running(activity_, node.name, state.frame.context.name);
   attempt(i, state, [&] {
-    std::vector<Value> values = call_node(node, inputs, context_of(i, state), states_[i].get());
+    std::vector<Value> values =
+        call_node(node, inputs, context_of(i, state), states_[i].get(), &running);
     for (std::size_t out = 0; out < values.size(); ++out)
       if (node.outputs[out] >= 0)
         state.values[std::size_t(node.outputs[out])] = std::move(values[out]);
@@ -183,6 +186,8 @@ detail::UntypedResult FrameWork::result(FrameState& state) const {
   for (std::size_t i = 0; i < plan_.nodes.size(); ++i)
     for (const std::string& what : state.warnings[i])
       result.warnings.push_back({plan_.nodes[i].name, what});
+  for (const Figures& figures : state.figures)
+    result.figures.insert(figures.begin(), figures.end());
   return result;
 }
 

@@ -41,7 +41,7 @@ inline bool in_order(const PlannedNode& node) { return node.spec->make_state || 
 class FrameWork {
  public:
   /// Throws std::invalid_argument for a constant that is missing or of another type.
-  FrameWork(const Plan& plan, const Constants& constants, bool stop_on_failure);
+  FrameWork(const Plan& plan, const Constants& constants, const RunOptions& options);
 
   /// Lets node i work on the frame, if nothing that it waits for has failed, and releases what it
   /// has read. A node that keeps a state must see the frames one by one, in their order. Throws
@@ -65,6 +65,7 @@ class FrameWork {
 
   const Plan& plan_;
   const bool stop_on_failure_;
+  Activity* const activity_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SharedClock clock_;
   std::vector<Value> constants_;               ///< per stream

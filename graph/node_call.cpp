@@ -30,8 +30,9 @@ std::size_t count_objects(const PlannedNode& node, const std::vector<Value>& inp
 }
 
 std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>& inputs,
-                               const FrameContext& context) {
+                               const FrameContext& context, Activity::Call* call) {
   const std::size_t count = count_objects(node, inputs);
+  if (call) call->begin_objects(count);
   std::vector<Slots> outputs(node.outputs.size(), Slots(count));
   std::vector<std::optional<std::string>> errors(count);
   parallel_for(count, 1, [&](std::size_t object) {
@@ -44,6 +45,7 @@ std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>
     } catch (const std::exception& error) {
       errors[object] = reason_of(error);
     }
+    if (call) call->end_object();
   });
   std::vector<ObjectFailure> failed;
   for (std::size_t object = 0; object < count; ++object)
@@ -60,12 +62,17 @@ std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>
 }  // namespace
 
 std::string reason_of(const std::exception& error) {
-  return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return "out of memory";
+  // The standard library's own text names a function: "vector::_M_fill_insert".
+  if (dynamic_cast<const std::length_error*>(&error))
+    return "a list would be longer than memory can address: is a parameter or a size in the file "
+           "too large?";
+  return error.what();
 }
 
 std::vector<Value> call_node(const PlannedNode& node, const std::vector<Value>& inputs,
-                             const FrameContext& context, void* state) {
-  if (node.lifted) return call_lifted(node, inputs, context);
+                             const FrameContext& context, void* state, Activity::Call* call) {
+  if (node.lifted) return call_lifted(node, inputs, context, call);
   return node.spec->call(inputs, context, node.params.get(), state);
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph/plan.hpp"
 
+#include <map>
+#include <utility>
+
 namespace posevote::graph {
 
 std::map<std::string, std::map<std::string, std::string>> effective_parameters(const Plan& plan) {
@@ -37,25 +40,33 @@ std::string boxes(const Plan& plan) {
   return dot + "  }\n";
 }
 
+/// One edge between two ends, with the names of all streams that run there: the type of each comes
+/// as the tooltip, which an SVG shows.
 std::string edges(const Plan& plan) {
+  std::map<std::pair<std::string, std::string>, std::pair<std::string, std::string>> labels;
   std::string dot;
   for (const Stream& stream : plan.streams) {
     const std::string from = stream.producer < 0 ? outer(stream) : id_of(plan, stream.producer);
-    const std::string label = " [label=" + quoted(stream.name + "\\n" + stream.type.name) + "];\n";
-    for (const int consumer : stream.consumers)
-      dot.append("  " + from + " -> ")
-          .append(consumer < 0 ? outer(stream) : id_of(plan, consumer))
-          .append(label);
+    for (const int consumer : stream.consumers) {
+      auto& [names, types] = labels[{from, consumer < 0 ? outer(stream) : id_of(plan, consumer)}];
+      names += (names.empty() ? "" : "\\n") + stream.name;
+      types += (types.empty() ? "" : "\\n") + stream.name + ": " + stream.type.name;
+    }
     if (stream.producer < 0 || &stream == &plan.streams[std::size_t(plan.result)])
       dot += "  " + outer(stream) + " [shape=ellipse];\n";
   }
+  for (const auto& [ends, text] : labels)
+    dot += "  " + ends.first + " -> " + ends.second + " [label=" + quoted(text.first) +
+           ", tooltip=" + quoted(text.second) + "];\n";
   return dot;
 }
 
 }  // namespace
 
 std::string to_dot(const std::vector<const Plan*>& plans) {
-  std::string dot = "digraph posevote {\n  rankdir=LR;\n  node [shape=box];\n";
+  std::string dot =
+      "digraph posevote {\n  rankdir=TB;\n  nodesep=0.15;\n  ranksep=0.3;\n"
+      "  node [shape=box, fontsize=12, margin=\"0.08,0.04\"];\n  edge [fontsize=10];\n";
   for (const Plan* plan : plans)
     if (!plan->nodes.empty()) dot += boxes(*plan) + edges(*plan);
   return dot + "}\n";

@@ -58,6 +58,7 @@ struct FrameResult {
   std::optional<Failure> failure;
   std::vector<Span> spans;        ///< per node of the plan, in its order
   std::vector<Warning> warnings;  ///< in the plan's order, of a node each once
+  Figures figures{};              ///< of all nodes
 };
 
 /// Gives the frames one by one, then nothing. Called by one thread at a time.
@@ -84,8 +85,9 @@ namespace detail {
 
 template <class Result>
 FrameResult<Result> typed(UntypedResult&& raw) {
-  return {std::move(raw.context), raw.failure ? nullptr : StreamTraits<Result>::share(raw.result),
-          std::move(raw.failure), std::move(raw.spans), std::move(raw.warnings)};
+  return {std::move(raw.context),  raw.failure ? nullptr : StreamTraits<Result>::share(raw.result),
+          std::move(raw.failure),  std::move(raw.spans),
+          std::move(raw.warnings), std::move(raw.figures)};
 }
 
 template <class... In>
@@ -121,9 +123,11 @@ RunSummary run(const Pipeline<Result(In...)>& pipeline, const Constants& constan
 /// Runs one frame on the calling thread's arena and returns its result.
 template <class Result, class... In>
 FrameResult<Result> run_one(const Pipeline<Result(In...)>& pipeline, const Constants& constants,
-                            std::type_identity_t<Frame<In...>> frame) {
+                            std::type_identity_t<Frame<In...>> frame,
+                            Activity* activity = nullptr) {
   FrameResult<Result> only;
-  run(pipeline, constants, counted(1, [&frame](std::size_t) { return std::move(frame); }), {},
+  run(pipeline, constants, counted(1, [&frame](std::size_t) { return std::move(frame); }),
+      {0, false, nullptr, activity},
       std::function([&only](const FrameResult<Result>& result) { only = result; }));
   return only;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph/yaml_document.hpp"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <filesystem>
 #include <map>
 
@@ -28,7 +30,7 @@ YAML::Node Reader::load() const {
   } catch (const YAML::BadFile&) {
     report({file, 0, 0}, "", "cannot be read: no such file?");
   } catch (const YAML::Exception& error) {
-    report(at(error.mark), "", "is not valid YAML: " + error.msg);
+    report(at(error.mark), "", "is not valid YAML: " + reason_of(error));
   }
   return YAML::Node(YAML::NodeType::Undefined);
 }
@@ -88,6 +90,11 @@ std::vector<Wire> Reader::wires(const YAML::Node& node, const Location& key,
     found.push_back({"", stream, at(node)});
   }
   return found;
+}
+
+std::string reason_of(const YAML::Exception& error) {
+  const bool is_deep = dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr;
+  return is_deep ? "nested deeper than 500" : error.msg;  // its own text is "bad file"
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {

@@ -2,10 +2,12 @@
 #include "pipelines/inputs.hpp"
 
 #include <glob.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "nodes/formats/format.hpp"
@@ -18,23 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Numbers of one width, so that they compare by value.
-std::string padded(const std::string& text) {
-  constexpr std::size_t kWidth = 20;
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
-    if (end == at) {
-      out += text[at++];
-      continue;
-    }
-    const std::size_t first = std::min(text.find_first_not_of('0', at), end);
-    out.append(kWidth - std::min(kWidth, end - first), '0').append(text, first, end - first);
-    at = end;
-  }
-  return out;
-}
-
 std::vector<fs::path> expand_glob(const std::string& pattern) {
   glob_t found{};
   std::vector<fs::path> paths;
@@ -44,17 +29,55 @@ std::vector<fs::path> expand_glob(const std::string& pattern) {
   return paths;
 }
 
+/// Whether a file is one of those that lie beside scans and models without being one.
+bool is_side_file(const fs::path& file, formats::Wanted wanted) {
+  static const std::set<std::string> known{"",      ".json", ".xf",   ".pose", ".txt",
+                                           ".csv",  ".yaml", ".yml",  ".md",   ".mtl",
+                                           ".html", ".log",  ".part", ".tmp"};
+  static const std::set<std::string> textures{".png", ".jpg", ".jpeg", ".bmp", ".tga"};
+  const std::string ending = file.extension().string();
+  return known.contains(ending) || file.filename().string().starts_with('.') ||
+         (wanted == formats::Wanted::kMeshes && textures.contains(ending));
+}
+
+/// "3 files .tiff, 1 file .xyz"; "" where nothing is passed over.
+std::string passed_over(const std::map<std::string, std::size_t>& endings) {
+  std::string text;
+  for (const auto& [ending, count] : endings)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) +
+            (count == 1 ? " file " : " files ") + ending;
+  return text;
+}
+
+/// What no loader knows is told, once for each ending.
+std::vector<fs::path> files_in(const fs::path& folder, formats::Wanted wanted) {
+  std::vector<fs::path> paths;
+  std::map<std::string, std::size_t> unknown;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::error_code is_loop;  // of links: for the frame to fail on
+    if (entry.is_directory(is_loop)) continue;
+    if (formats::has_ending(entry.path(), wanted))
+      paths.push_back(entry.path());
+    else if (!is_side_file(entry.path(), wanted))
+      ++unknown[entry.path().extension().string()];
+  }
+  const std::string readable = formats::list_endings(wanted);
+  if (paths.empty())
+    throw std::invalid_argument(folder.string() + ": no " + readable + " file in it" +
+                                (unknown.empty() ? "" : ", but " + passed_over(unknown)));
+  if (!unknown.empty())
+    spdlog::warn("{}: {} passed over; {} files are read", folder.string(), passed_over(unknown),
+                 readable);
+  return paths;
+}
+
 /// A file stays as it is, even if it cannot be opened: that is for the frame to fail on.
 std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted) {
   std::vector<fs::path> paths;
-  if (fs::is_directory(argument)) {
-    for (const auto& entry : fs::directory_iterator(argument))
-      if (!entry.is_directory() && formats::has_ending(entry.path(), wanted))
-        paths.push_back(entry.path());
-    if (paths.empty())
-      throw std::invalid_argument(argument + ": no " + formats::list_endings(wanted) +
-                                  " file in it");
-  } else if (fs::exists(fs::symlink_status(argument))) {
+  std::error_code problem;
+  if (fs::is_directory(argument, problem)) {
+    paths = files_in(argument, wanted);
+  } else if (fs::exists(fs::symlink_status(argument, problem))) {
     paths.emplace_back(argument);
   } else {
     paths = expand_glob(argument);
@@ -65,21 +88,22 @@ std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted
   return paths;
 }
 
-/// As people count: scan2 before scan10.
-bool in_natural_order(const fs::path& a, const fs::path& b) {
-  const std::string left = a.string(), right = b.string();
-  return std::pair(padded(left), left) < std::pair(padded(right), right);
-}
-
-/// Names after the file, with the number in front where two files share a name.
+/// Names after the file, with the number in front where two would share a name: of a.off, a.pcd and
+/// 000001_a.ply all three.
 void name_scenes(std::vector<SceneEntry>& scenes) {
-  std::map<std::string, int> uses;
-  for (const SceneEntry& scene : scenes) ++uses[scene.file.path.stem().string()];
-  for (SceneEntry& scene : scenes) {
-    const std::string stem = scene.file.path.stem().string();
-    char number[32];
-    std::snprintf(number, sizeof number, "%06zu_", scene.number);
-    scene.name = (uses[stem] > 1 ? number : "") + stem;
+  for (SceneEntry& scene : scenes) scene.name = scene.file.path.stem().string();
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::string, int> uses;
+    for (const SceneEntry& scene : scenes) ++uses[scene.name];
+    for (SceneEntry& scene : scenes) {
+      const std::string stem = scene.file.path.stem().string();
+      if (uses[scene.name] == 1 || scene.name != stem) continue;
+      char number[32];
+      std::snprintf(number, sizeof number, "%06zu_", scene.number);
+      scene.name = number + stem;
+      changed = true;
+    }
   }
 }
 
@@ -89,7 +113,9 @@ std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
   std::vector<fs::path> paths;
   for (const std::string& argument : arguments)
     for (fs::path& path : expand(argument, formats::Wanted::kAny)) paths.push_back(std::move(path));
-  std::sort(paths.begin(), paths.end(), in_natural_order);
+  std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
+    return layouts::in_natural_order(a.string(), b.string());
+  });
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   std::vector<SceneEntry> scenes;
   for (const fs::path& path : paths) {
@@ -125,7 +151,8 @@ ModelFiles list_models(const std::vector<std::string>& arguments) {
   std::vector<fs::path> files;
   for (const std::string& argument : arguments)
     for (const fs::path& path : expand(argument, formats::Wanted::kMeshes)) {
-      if (!fs::is_regular_file(path))
+      std::error_code problem;
+      if (!fs::is_regular_file(path, problem))
         throw std::invalid_argument(path.string() + ": no such model file");
       files.push_back(path);
     }

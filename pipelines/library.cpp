@@ -98,12 +98,13 @@ std::string all_failed(const std::vector<LeftOutModel>& left_out) {
 }  // namespace
 
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
-                                          const ModelFiles& models, BadModels bad) {
+                                          const ModelFiles& models, BadModels bad,
+                                          graph::Activity* activity) {
   ModelFiles sound = models;
   std::vector<LeftOutModel> left_out;
   std::set<std::string> told;
   for (;;) {
-    const auto result = graph::run_one(configuration.models, {}, {{}, {sound}});
+    const auto result = graph::run_one(configuration.models, {}, {{}, {sound}}, activity);
     for (const graph::Warning& warning : result.warnings)
       if (told.insert(warning.what).second) spdlog::warn("{}", warning.what);
     if (!result.failure) {
@@ -142,7 +143,7 @@ void tell_left_out(const ModelLibrary& library) {
 
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models, const fs::path& folder,
-                                                   BadModels bad) {
+                                                   BadModels bad, graph::Activity* activity) {
   // The same models and parameters give another library after a change of the nodes.
   std::vector<fs::path> files = graph::code_files();
   for (const ModelFile& model : models)
@@ -158,7 +159,7 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
     }
     if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
   }
-  auto library = train(configuration, models, bad);
+  auto library = train(configuration, models, bad, activity);
   try {
     fs::create_directories(folder);
     library::save_library(*library, file, key);

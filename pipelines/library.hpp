@@ -25,7 +25,8 @@ inline BadModels bad_models(const std::string& on_error) {
 /// what" if it fails, or no model is left.
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
                                           const ModelFiles& models,
-                                          BadModels bad = BadModels::kStop);
+                                          BadModels bad = BadModels::kStop,
+                                          graph::Activity* activity = nullptr);
 
 /// Names on standard error the models of a library trained before whose sizes say that their unit is
 /// another; training says so itself. `files`: theirs, or none.
@@ -41,7 +42,8 @@ void tell_left_out(const ModelLibrary& library);
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models,
                                                    const std::filesystem::path& folder,
-                                                   BadModels bad = BadModels::kStop);
+                                                   BadModels bad = BadModels::kStop,
+                                                   graph::Activity* activity = nullptr);
 
 /// Where libraries are cached unless --cache says otherwise: $XDG_CACHE_HOME/posevote or
 /// ~/.cache/posevote.

@@ -11,6 +11,7 @@
 
 #include "graph/schema.hpp"
 #include "nodes/formats/units.hpp"
+#include "tools/text.hpp"
 
 namespace posevote {
 namespace {
@@ -19,6 +20,8 @@ std::vector<CommandEntry>& commands() {
   static std::vector<CommandEntry> entries;
   return entries;
 }
+
+std::vector<std::string> command_words;
 
 std::atomic<bool> interrupted = false;
 
@@ -87,6 +90,18 @@ const std::atomic<bool>& end_in_order() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   return interrupted;
+}
+
+void remember_command(int argc, const char* const* argv) {
+  command_words.assign(argv, argv + argc);
+}
+
+std::string resuming_command(bool resume) {
+  std::string text;
+  for (const std::string& word : command_words)
+    if (!resume || (word != "--overwrite" && word != "--resume"))
+      text += (text.empty() ? "" : " ") + quote_for_shell(word);
+  return resume ? text + " --resume" : text;
 }
 
 }  // namespace posevote

@@ -65,4 +65,9 @@ int with_threads(std::size_t threads, const std::function<int()>& command);
 /// one kills.
 const std::atomic<bool>& end_in_order();
 
+/// For messages: the program as it was called, and its arguments.
+void remember_command(int argc, const char* const* argv);
+/// As it can be typed to go on: `resume`: with --resume, without --overwrite.
+std::string resuming_command(bool resume);
+
 }  // namespace posevote

@@ -27,7 +27,8 @@ struct RunCommand {
   std::string on_error = "skip";
   std::size_t threads = 0, tokens = 0;
   std::uint64_t seed = 0;
-  bool resume = false, overwrite = false, quiet = false;
+  bool resume = false, overwrite = false, quiet = false, verbose = false;
+  bool lines = true;  ///< for each frame of a small run
 };
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted);
 
@@ -37,7 +38,7 @@ struct TrainCommand {
   std::vector<std::string> models, set;
   std::string out, on_error = "skip";
   std::string model_unit;  ///< empty: as the config says
-  bool report = false;
+  bool report = false, quiet = false;
 };
 int train_command(const TrainCommand& command);
 
@@ -56,10 +57,16 @@ struct EvaluateCommand {
 };
 int evaluate_command(const EvaluateCommand& command);
 
-/// `flat`: prints the pipeline with what it extends as one file.
-int check_command(const std::string& config, const std::vector<std::string>& set, bool flat);
+/// Options of `check` and `graph`.
+struct InspectCommand {
+  std::string config, pipeline;
+  std::vector<std::string> set;
+  bool flat = false;  ///< prints the pipeline with what it extends as one file
+};
+int check_command(const InspectCommand& command);
+int graph_command(const InspectCommand& command);
+int configs_command(bool json);
 int nodes_command(const std::string& name);
-int graph_command(const std::string& config, const std::vector<std::string>& set);
 int docs_command(const std::string& file);
 
 /// A line that can be pasted into a pipeline, with every parameter but experts' at its default.

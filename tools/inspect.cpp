@@ -108,14 +108,15 @@ std::string example(const NodeSpec& spec) {
   return text + "}";
 }
 
-int check_command(const std::string& config, const std::vector<std::string>& set, bool flat) {
-  const Configuration configuration = load_configuration(config, set);
-  if (flat) {
+int check_command(const InspectCommand& command) {
+  const Configuration configuration =
+      load_configuration(command.config, command.set, {}, command.pipeline);
+  if (command.flat) {
     std::cout << graph::to_yaml(configuration.wiring);
     return 0;
   }
   const std::size_t scenes = configuration.scenes.nodes.size();
-  std::cout << config << ": fine, "
+  std::cout << command.config << ": fine, "
             << (scenes > 0 ? std::to_string(scenes) + " nodes a scan and " : "")
             << configuration.models.nodes.size() << " nodes for the models\n";
   return 0;
@@ -135,8 +136,9 @@ int nodes_command(const std::string& name) {
                               (near.empty() ? "" : ", did you mean '" + near + "'?"));
 }
 
-int graph_command(const std::string& config, const std::vector<std::string>& set) {
-  const Configuration configuration = load_configuration(config, set);
+int graph_command(const InspectCommand& command) {
+  const Configuration configuration =
+      load_configuration(command.config, command.set, {}, command.pipeline);
   std::cout << graph::to_dot({&configuration.models, &configuration.scenes});
   return 0;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line: its subcommands register themselves (tools/command_line.hpp).
 #include <malloc.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +12,7 @@
 #include "graph/schema.hpp"
 #include "pipelines/recognizer.hpp"
 #include "tools/command_line.hpp"
+#include "tools/progress/console.hpp"
 
 namespace {
 
@@ -61,8 +61,8 @@ int refuse_without_command(const CLI::App& app) {
 
 int main(int argc, char** argv) {
   keep_memory();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("posevote"));
-  spdlog::set_pattern("%^%l%$: %v");
+  console::begin();
+  remember_command(argc, argv);
   CLI::App app("posevote finds known 3D objects in 3D scans.");
   app.set_version_flag("--version", "posevote " + version());
   std::vector<std::string> plugins;

@@ -3,8 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -17,8 +17,11 @@
 #include "pipelines/inputs.hpp"
 #include "pipelines/library.hpp"
 #include "pipelines/overrides.hpp"
+#include "tools/command_line.hpp"
 #include "tools/commands.hpp"
+#include "tools/progress/frame_report.hpp"
 #include "tools/run_record.hpp"
+#include "tools/text.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -58,10 +61,15 @@ ModelFiles find_models(const RunCommand& command) {
 
 std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
                                                  const Configuration& configuration) {
-  if (command.library.empty())
-    return cached_library(configuration, find_models(command),
+  if (command.library.empty()) {
+    const ModelFiles models = find_models(command);
+    graph::Activity activity;
+    const Progress progress(
+        {"preparing " + std::to_string(models.size()) + " models", 0, &activity, !command.quiet});
+    return cached_library(configuration, models,
                           command.cache.empty() ? default_cache() : fs::path(command.cache),
-                          bad_models(command.on_error));
+                          bad_models(command.on_error), &activity);
+  }
   if (!command.models.empty())
     throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
   std::string why_not;
@@ -126,67 +134,12 @@ void begin_run(const RunCommand& command, const Configuration& configuration,
   if (!answered.empty()) spdlog::info("{} frames are answered already", answered.size());
 }
 
-/// Tells of the frames as they leave, and writes when each node worked on them.
-class Progress {
- public:
-  Progress(const RunCommand& command, const Configuration& configuration, std::size_t count)
-      : command_(command), count_(count), trace_(node_names(configuration.scenes)) {
-    trace_.write_to(fs::path(command.out) / "trace.json");
-  }
-
-  void report(const graph::FrameResult<Detections>& result) {
-    ++reported_;
-    trace_.add(result.context.name, result.spans);
-    for (const graph::Warning& warning : result.warnings)
-      spdlog::warn("{}: {}: {}", result.context.file.string(), warning.node, warning.what);
-    if (result.failure)
-      spdlog::error("{}: {}: {}", result.context.file.string(), result.failure->node,
-                    result.failure->what);
-    else if (!command_.quiet)
-      say(result.context, *result.result, graph::cost(result.spans));
-  }
-
-  void finish() {
-    if (!trace_.close()) spdlog::warn("{}/trace.json could not be written in full", command_.out);
-    if (!command_.quiet) std::printf("\n%s", graph::time_table(trace_.times()).c_str());
-  }
-
- private:
-  static std::vector<std::string> node_names(const graph::Plan& plan) {
-    std::vector<std::string> names;
-    for (const graph::PlannedNode& node : plan.nodes) names.push_back(node.name);
-    return names;
-  }
-
-  /// "0 found" alone explains nothing.
-  static void say_nearest(const Detection& best) {
-    const auto worst = std::max_element(best.against.begin(), best.against.end());
-    std::printf("    the best candidate, %s: %s; most against it: %s\n", best.model.c_str(),
-                best.why.c_str(), kClueNames[std::size_t(worst - best.against.begin())]);
-  }
-
-  void say(const graph::FrameContext& frame, const Detections& detections, double seconds) const {
-    std::printf("[%zu/%zu] %s: %zu found (%.2f s)\n", reported_, count_,
-                frame.file.filename().c_str(), detections.items.size(), seconds);
-    for (const Detection& item : detections.items)
-      std::printf("    %-24s confidence %.2f  inliers %.0f %%  rms %.2f mm\n", item.model.c_str(),
-                  item.confidence, 100 * item.inlier_fraction, 1e3 * item.rmse);
-    if (detections.items.empty() && !detections.rejected.empty())
-      say_nearest(detections.rejected.front());
-    std::fflush(stdout);
-  }
-
-  const RunCommand& command_;
-  const std::size_t count_;
-  graph::Trace trace_;
-  std::size_t reported_ = 0;
-};
-
 graph::RunSummary run_scenes(const RunCommand& command, const Configuration& configuration,
                              const graph::Constants& constants,
                              const std::vector<SceneEntry>& scenes,
-                             const std::atomic<bool>& interrupted) {
-  Progress progress(command, configuration, scenes.size());
+                             const std::atomic<bool>& interrupted, std::size_t& found) {
+  graph::Activity activity;
+  FrameReport report(command, configuration.scenes, scenes.size(), activity, interrupted);
   const auto make_frame = [&](std::size_t i) {
     const SceneEntry& scene = scenes[i];
     return graph::Frame<SceneFile>{
@@ -194,12 +147,22 @@ graph::RunSummary run_scenes(const RunCommand& command, const Configuration& con
   };
   const graph::RunSummary summary =
       graph::run(configuration.scenes, constants, graph::counted(scenes.size(), make_frame),
-                 {command.tokens, command.on_error == "stop", &interrupted},
-                 std::function([&progress](const graph::FrameResult<Detections>& result) {
-                   progress.report(result);
+                 {command.tokens, command.on_error == "stop", &interrupted, &activity},
+                 std::function([&report](const graph::FrameResult<Detections>& result) {
+                   report.add(result);
                  }));
-  progress.finish();
+  report.finish();
+  found = report.found();
   return summary;
+}
+
+/// How many are left, and the command that goes on: an experiment does so by itself.
+void tell_interrupted(const RunCommand& command, std::size_t all,
+                      const graph::RunSummary& summary) {
+  const std::size_t left = all - summary.done - summary.failed;
+  std::cerr << "interrupted: " << left << " of " << all << " frames are left"
+            << (summary.failed > 0 ? ", and those that failed" : "") << "; to go on:\n  "
+            << resuming_command(command.lines) << "\n";
 }
 
 int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, bool interrupted) {
@@ -222,7 +185,10 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   if (!library->octaves.front().index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
 
-  const graph::Constants constants = constants_of(configuration, library);
+  const graph::Constants constants = [&] {
+    const Progress progress({"preparing the search", 0, nullptr, !command.quiet});
+    return constants_of(configuration, library);
+  }();
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
   if (command.resume) check_same_run(effective, description);
@@ -233,10 +199,13 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   as_arguments([&] {
     record_run(command, command.library.empty() ? find_models(command) : ModelFiles(), *library);
   });
+  std::size_t found = 0;
   const graph::RunSummary summary =
-      run_scenes(command, configuration, constants, scenes, interrupted);
-  std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
-              command.out.c_str());
+      run_scenes(command, configuration, constants, scenes, interrupted, found);
+  std::cout << summary.done << " frames answered, " << summary.failed << " failed; " << found
+            << " found; results in " << printable(command.out) << "\n"
+            << std::flush;
+  if (interrupted) tell_interrupted(command, scenes.size(), summary);
   return exit_status(summary, *library, interrupted);
 }
 

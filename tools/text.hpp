@@ -26,4 +26,14 @@ std::string mend_utf8(const std::string& text);
 /// mended, control characters but tabs and line ends go.
 std::string escape_markup(const std::string& text);
 
+/// For terminals: a control character becomes its number in hexadecimal (\x1b), so that no file name
+/// can steer the terminal; UTF-8 is mended.
+std::string printable(const std::string& text);
+
+/// One word of a command line for a POSIX shell: as it is, or in single quotes.
+std::string quote_for_shell(const std::string& word);
+
+/// "12 s", "4 min 40 s", "2 h 05 min".
+std::string duration_text(double seconds);
+
 }  // namespace posevote

@@ -6,6 +6,7 @@
 #include "pipelines/library.hpp"
 #include "pipelines/overrides.hpp"
 #include "tools/commands.hpp"
+#include "tools/progress/progress.hpp"
 #include "tools/symmetry_report.hpp"
 
 namespace posevote {
@@ -13,8 +14,13 @@ namespace posevote {
 int train_command(const TrainCommand& command) {
   const Configuration configuration =
       load_configuration(command.config, command.set, {}, "", model_overrides(command.model_unit));
-  const auto library =
-      train(configuration, list_models(command.models), bad_models(command.on_error));
+  const ModelFiles models = list_models(command.models);
+  const auto library = [&] {
+    graph::Activity activity;
+    const Progress progress(
+        {"training " + std::to_string(models.size()) + " models", 0, &activity, !command.quiet});
+    return train(configuration, models, bad_models(command.on_error), &activity);
+  }();
   library::save_library(*library, command.out, library_key(configuration));
   for (const auto& model : library->models) {
     std::cout << model->name << ": obj_id " << model->obj_id << ", " << model->cloud.points.rows()

@@ -2,16 +2,19 @@
 #include "nodes/formats/append_json.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
+
+#include "graph/write_file.hpp"
 
 namespace posevote::formats {
 
 AppendJson::AppendJson(std::filesystem::path file, const std::string& head, std::string tail)
     : file_(std::move(file)), tail_(std::move(tail)) {
-  stream_.open(file_, std::ios::in | std::ios::out | std::ios::binary | std::ios::trunc);
-  put(head + tail_);
+  graph::write_file(file_, head + tail_);
+  stream_.open(file_, std::ios::in | std::ios::out | std::ios::binary);
+  if (!stream_)
+    throw std::runtime_error(file_.string() + ": cannot be opened: " + graph::cause_of(errno));
   end_ = static_cast<std::streamoff>(head.size());
 }
 
@@ -47,7 +50,7 @@ void AppendJson::put(const std::string& text) {
   stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream_.flush();
   if (!stream_)
-    throw std::runtime_error(file_.string() + ": cannot be written: " + std::strerror(errno));
+    throw std::runtime_error(file_.string() + ": cannot be written: " + graph::cause_of(errno));
 }
 
 }  // namespace posevote::formats

@@ -3,8 +3,10 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <stdexcept>
+
+#include "graph/write_file.hpp"
+#include "nodes/formats/json_text.hpp"
 
 namespace posevote::formats {
 namespace {
@@ -176,26 +178,26 @@ void check_same_scans(const fs::path& results, const std::vector<ordered_json>& 
   }
 }
 
-void require(const std::ostream& stream, const fs::path& file) {
-  if (!stream)
-    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+/// Keeps the failures of frames that are another shard's; this run's are tried again.
+void begin_failures(const fs::path& file, const std::map<std::size_t, fs::path>& scans) {
+  const std::vector<ordered_json> before = read_frames(file, "what").items;
+  AppendJson list(file, "[", kFailuresTail);
+  for (const ordered_json& failure : before)
+    if (!scans.contains(failure.at("frame").get<std::size_t>())) list.append(line(failure));
 }
 
-}  // namespace
+void require(const std::ostream& stream, const fs::path& file) {
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written: " + graph::cause_of(errno));
+}
 
-std::set<std::size_t> begin_results(const fs::path& out, bool resume,
-                                    const std::map<std::size_t, fs::path>& scans,
-                                    const std::vector<LeftOutModel>& left_out) {
-  const fs::path csv = out / "results.csv";
-  const fs::path results = out / "results.json";
-  if (!resume && (fs::exists(csv) || fs::exists(results)))
-    throw std::invalid_argument(
-        out.string() +
-        ": holds another run; choose another --out, or give --resume or --overwrite");
-  fs::create_directories(out);
+/// Old results are rewritten beside the old files, so that a crash here loses none of them.
+std::set<std::size_t> rewrite_results(const fs::path& out,
+                                      const std::map<std::size_t, fs::path>& scans,
+                                      const std::vector<LeftOutModel>& left_out) {
+  const fs::path csv = out / "results.csv", results = out / "results.json";
   const std::vector<ordered_json> frames = read_frames(results, "im_id").items;
   check_same_scans(results, frames, scans);
-  // Old results are rewritten beside the old files, so that a crash here loses none of them.
   const fs::path new_csv = out / "results.csv.new";
   const fs::path new_results = out / "results.json.new";
   std::set<std::size_t> answered;
@@ -213,8 +215,27 @@ std::set<std::size_t> begin_results(const fs::path& out, bool resume,
   }
   fs::rename(new_csv, csv);
   fs::rename(new_results, results);
-  AppendJson(out / "failures.json", "[", kFailuresTail);
+  begin_failures(out / "failures.json", scans);
   return answered;
+}
+
+}  // namespace
+
+std::set<std::size_t> begin_results(const fs::path& out, bool resume,
+                                    const std::map<std::size_t, fs::path>& scans,
+                                    const std::vector<LeftOutModel>& left_out) {
+  const fs::path csv = out / "results.csv";
+  const fs::path results = out / "results.json";
+  if (!resume && (fs::exists(csv) || fs::exists(results)))
+    throw std::invalid_argument(
+        out.string() +
+        ": holds another run; choose another --out, or give --resume or --overwrite");
+  fs::create_directories(out);
+  try {
+    return rewrite_results(out, scans, left_out);
+  } catch (const ordered_json::exception& error) {
+    throw std::runtime_error(results.string() + ": is not what a run wrote: " + reason_of(error));
+  }
 }
 
 ResultsWriter::ResultsWriter(const fs::path& out)
@@ -248,11 +269,11 @@ std::vector<LeftOutModel> read_left_out(const fs::path& file) {
   text = "{" + text;
   text.back() = '}';
   try {
-    const ordered_json json = ordered_json::parse(text);
+    const auto json = parse_json<ordered_json>(text);
     for (const ordered_json& model : json.at("models_left_out"))
       left_out.push_back({model.at("model").get<std::string>(), model.at("obj_id").get<int>(),
                           model.at("why").get<std::string>()});
-  } catch (const ordered_json::exception&) {
+  } catch (const std::exception&) {
     left_out.clear();  // torn
   }
   return left_out;
@@ -264,11 +285,15 @@ WrittenFrames read_frames(const fs::path& file, const std::string& key) {
   for (std::string text; std::getline(stream, text);) {
     if (!text.starts_with("{\"frame\"")) continue;
     if (text.ends_with(',')) text.pop_back();
-    ordered_json frame = ordered_json::parse(text, nullptr, false);
-    if (!frame.is_discarded() && frame.contains(key))
-      frames.items.push_back(std::move(frame));
-    else
+    try {
+      auto frame = parse_json<ordered_json>(text);
+      if (frame.contains(key))
+        frames.items.push_back(std::move(frame));
+      else
+        ++frames.torn;
+    } catch (const std::runtime_error&) {
       ++frames.torn;
+    }
   }
   return frames;
 }

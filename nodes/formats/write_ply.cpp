@@ -2,11 +2,11 @@
 #include "nodes/formats/write_ply.hpp"
 
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+
+#include "graph/write_file.hpp"
 
 namespace posevote::formats {
 namespace {
@@ -68,19 +68,7 @@ void write_ply(const fs::path& file, const Mesh& mesh, double units_per_metre,
                const std::vector<Rgb>& colours) {
   check_counts(file, mesh, colours.size());
   const std::string bytes = header(mesh, !colours.empty()) + body(mesh, units_per_metre, colours);
-  fs::path part = file;
-  part += ".part";
-  errno = 0;
-  std::ofstream stream(part, std::ios::binary | std::ios::trunc);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  std::error_code problem(stream ? 0 : errno, std::generic_category());
-  const bool written = static_cast<bool>(stream);
-  if (written) fs::rename(part, file, problem);
-  if (written && !problem) return;
-  std::error_code ignored;
-  fs::remove(part, ignored);
-  throw std::runtime_error(file.string() + ": cannot be written: " + problem.message());
+  graph::write_file(file, bytes);
 }
 
 }  // namespace posevote::formats

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "graph/schema.hpp"
+#include "nodes/formats/json_text.hpp"
 
 namespace posevote::layouts {
 
@@ -28,9 +28,7 @@ int number_of(const std::string& digits) {
 }
 
 nlohmann::json read_json(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) fail(file, "cannot be read: no such file?");
-  nlohmann::json root = nlohmann::json::parse(stream, nullptr, false);
+  nlohmann::json root = formats::read_json<nlohmann::json>(file);
   if (!root.is_object()) fail(file, "is no JSON object");
   return root;
 }
@@ -43,10 +41,37 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
   return paths;
 }
 
+namespace {
+
+/// Numbers of one width, so that they compare by value.
+std::string padded(const std::string& text) {
+  constexpr std::size_t kWidth = 20;
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+    if (end == at) {
+      out += text[at++];
+      continue;
+    }
+    const std::size_t first = std::min(text.find_first_not_of('0', at), end);
+    out.append(kWidth - std::min(kWidth, end - first), '0').append(text, first, end - first);
+    at = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool in_natural_order(const std::string& a, const std::string& b) {
+  return std::pair(padded(a), a) < std::pair(padded(b), b);
+}
+
 std::map<int, fs::path> number_models(std::vector<fs::path> files) {
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return std::pair(a.stem().string(), a.string()) < std::pair(b.stem().string(), b.string());
+    const std::string left = a.stem().string(), right = b.stem().string();
+    return left == right ? in_natural_order(a.string(), b.string()) : in_natural_order(left, right);
   });
+  files.erase(std::unique(files.begin(), files.end()), files.end());
   std::map<int, fs::path> models;
   int order = 0;
   for (const fs::path& file : files) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "nodes/formats/json_text.hpp"
+
 namespace posevote::layouts {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what);
@@ -20,8 +22,10 @@ int whole(const nlohmann::json& entry, const std::string& name, int least = 0);
 nlohmann::json read_json(const std::filesystem::path& file);
 /// The entries of a folder, sorted by path; none where there is no such folder.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
-/// obj_id of each model file: from `obj_NNNNNN` names, else 1.. by the sort of all names, in
-/// whatever order they are given. Throws std::runtime_error for two models of one obj_id.
+/// As people count: scan2 before scan10.
+bool in_natural_order(const std::string& a, const std::string& b);
+/// obj_id of each model file: from `obj_NNNNNN` names, else 1.. by the names in natural order, in
+/// whatever order they are given; a file that is given twice counts once. Throws std::runtime_error for two models of one obj_id.
 std::map<int, std::filesystem::path> number_models(std::vector<std::filesystem::path> files);
 
 /// A list of so many numbers. Throws std::invalid_argument, which names it.
@@ -36,7 +40,7 @@ auto located(const std::filesystem::path& file, const std::string& place, const 
   try {
     return read();
   } catch (const nlohmann::json::exception& error) {
-    fail(file, place + ": " + error.what());
+    fail(file, place + ": " + formats::reason_of(error));
   } catch (const std::invalid_argument& error) {
     fail(file, place + ": " + error.what());
   }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "nodes/formats/json_text.hpp"
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/geometry/extreme_points.hpp"
 #include "nodes/layouts/files.hpp"
@@ -71,9 +71,7 @@ void read_models(const std::map<int, fs::path>& files, const fs::path& dataset,
 }
 
 void read_targets(GroundTruth& truth, const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) fail(file, "cannot be read: no such file?");
-  const nlohmann::json list = nlohmann::json::parse(stream, nullptr, false);
+  const auto list = formats::read_json<nlohmann::json>(file);
   if (!list.is_array() || list.empty()) fail(file, "is no JSON list of targets");
   for (std::size_t i = 0; i < list.size(); ++i) {
     try {
@@ -82,6 +80,8 @@ void read_targets(GroundTruth& truth, const fs::path& file) {
                 object = whole(entry, "obj_id");
       truth.targets[{scene, image, object}] =
           entry.contains("inst_count") ? whole(entry, "inst_count", 1) : 1;
+    } catch (const nlohmann::json::exception& error) {
+      fail(file, "entry " + std::to_string(i) + ": " + formats::reason_of(error));
     } catch (const std::exception& error) {
       fail(file, "entry " + std::to_string(i) + ": " + error.what());
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SIXD Challenge 2017, the forerunner of BOP: models/obj_NN.ply, models/models_info.yml,
 // SPLIT/NN/{depth/NNNN.png, info.yml, gt.yml}. It knows neither symmetries nor visible fractions.
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/yaml.h>
 
 #include "graph/schema.hpp"
@@ -41,7 +42,8 @@ json read_yaml(const fs::path& file) {
     if (!root.is_object()) fail(file, "is no YAML map");
     return root;
   } catch (const YAML::Exception& error) {
-    fail(file, error.what());
+    const bool is_deep = dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr;
+    fail(file, is_deep ? "is nested too deep" : error.what());  // its own text is "bad file"
   } catch (const std::runtime_error& error) {
     fail(file, error.what());
   }

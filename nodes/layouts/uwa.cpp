@@ -129,30 +129,35 @@ struct PoseName {
   int scene = -1;
 };
 
-PoseName split_name(const fs::path& file) {
+/// Nothing of another name: the published archive holds a `parasaurolophus-rs6-old.xf`.
+std::optional<PoseName> split_name(const fs::path& file) {
   const std::string stem = file.stem().string();
   const std::size_t dash = stem.rfind('-');
-  if (dash == std::string::npos || scene_number(stem.substr(dash + 1)) < 0)
-    fail(file, "expected a name like OBJECT-rsN.xf");
-  return {stem.substr(0, dash), scene_number(stem.substr(dash + 1))};
+  if (dash == std::string::npos || scene_number(stem.substr(dash + 1)) < 0) return std::nullopt;
+  return PoseName{stem.substr(0, dash), scene_number(stem.substr(dash + 1))};
 }
 
 void read_poses(const fs::path& folder, const std::map<int, int>& im_ids, const Visible& visible,
                 GroundTruth& truth) {
   std::map<std::string, int> without_model;
   for (const fs::path& file : files_of(folder, "ground_truth", ".xf")) {
-    const PoseName name = split_name(file);
-    const auto image = im_ids.find(name.scene);
+    const std::optional<PoseName> name = split_name(file);
+    if (!name) {
+      truth.notes.push_back(file.filename().string() +
+                            ": left out, expected a name like OBJECT-rsN.xf");
+      continue;
+    }
+    const auto image = im_ids.find(name->scene);
     if (image == im_ids.end())
-      fail(file, "there is no scene rs" + std::to_string(name.scene) + ".ply");
-    const auto obj_id = find_object(truth.objects, name.object, file);
+      fail(file, "there is no scene rs" + std::to_string(name->scene) + ".ply");
+    const auto obj_id = find_object(truth.objects, name->object, file);
     truth.images[{0, image->second}];
     if (!obj_id) {
-      ++without_model[name.object];
+      ++without_model[name->object];
       continue;
     }
     TrueInstance instance{0, image->second, *obj_id, read_xf(file), std::nullopt};
-    const auto seen = visible.find({name.scene, *obj_id});
+    const auto seen = visible.find({name->scene, *obj_id});
     if (seen != visible.end()) instance.visible = seen->second;
     truth.instances.push_back(instance);
   }

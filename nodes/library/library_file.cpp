@@ -4,16 +4,12 @@
 #include <xxhash.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <memory>
-#include <random>
-#include <sstream>
 #include <stdexcept>
 
+#include "graph/write_file.hpp"
 #include "nodes/library/library_payload.hpp"
 
 namespace posevote::library {
@@ -39,24 +35,6 @@ std::string checksum_of(std::string_view payload) {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
-}
-
-/// A name in the same folder that nobody else writes at the same time.
-fs::path unique_neighbour(const fs::path& path) {
-  std::random_device random;
-  std::ostringstream suffix;
-  suffix << "." << std::hex << random() << random() << ".tmp";
-  return path.string() + suffix.str();
-}
-
-void write_new_file(const fs::path& path, const std::string& bytes) {
-  std::FILE* file = std::fopen(path.c_str(), "wbx");
-  if (!file) fail(path, std::string("cannot be written: ") + std::strerror(errno));
-  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int error = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!whole || !closed)
-    fail(path, std::string("cannot be written: ") + std::strerror(whole ? errno : error));
 }
 
 std::string read_file(const fs::path& path) {
@@ -112,8 +90,7 @@ std::string hash_library(const ModelLibrary& library) {
   return checksum_of(encode_library(library));
 }
 
-void save_library(const ModelLibrary& library, const fs::path& link, const std::string& key) {
-  const fs::path path = fs::is_symlink(link) ? fs::weakly_canonical(link) : link;
+void save_library(const ModelLibrary& library, const fs::path& path, const std::string& key) {
   if (fs::exists(path) && !fs::is_regular_file(path)) fail(path, "is there, and no plain file");
   const std::string payload = encode_library(library);
   ByteWriter out;
@@ -122,15 +99,7 @@ void save_library(const ModelLibrary& library, const fs::path& link, const std::
   out.put(key);
   out.put(checksum_of(payload));
   out.put(payload);
-  const fs::path temporary = unique_neighbour(path);
-  std::error_code ignored;
-  try {
-    write_new_file(temporary, out.bytes());
-    fs::rename(temporary, path);
-  } catch (const std::exception& error) {
-    fs::remove(temporary, ignored);
-    fail(path, error.what());
-  }
+  graph::write_file(path, out.bytes());
 }
 
 std::optional<ModelLibrary> load_library(const fs::path& path, const std::string& key,

@@ -10,11 +10,10 @@
 //   write_correspondences: {in: [correspondences, scene_features], every: 1}
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "graph/registry.hpp"
+#include "graph/write_file.hpp"
 #include "nodes/data/model.hpp"
 
 namespace posevote::write {
@@ -56,12 +55,11 @@ void write_correspondences(const PerObject<Correspondences>& correspondences,
     return;
   const std::filesystem::path file = context.out / "correspondences" / (context.name + ".csv");
   std::filesystem::create_directories(file.parent_path());
-  std::ofstream stream(file, std::ios::binary);
-  stream << "obj_id,distance,ratio,scene_x,scene_y,scene_z,scene_nx,scene_ny,scene_nz,"
-            "model_x,model_y,model_z,model_nx,model_ny,model_nz\n";
-  for (const auto& object : correspondences.slots) stream << rows_of(*object, scene_features);
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written in full");
+  std::string text =
+      "obj_id,distance,ratio,scene_x,scene_y,scene_z,scene_nx,scene_ny,scene_nz,"
+      "model_x,model_y,model_z,model_nx,model_ny,model_nz\n";
+  for (const auto& object : correspondences.slots) text += rows_of(*object, scene_features);
+  graph::write_file(file, text);
 }
 
 const auto registered = graph::register_node("write_correspondences", write_correspondences,

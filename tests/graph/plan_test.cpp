@@ -160,7 +160,8 @@ TEST_CASE("numbers are read the same everywhere, and only numbers", "[schema]") 
 TEST_CASE("the wiring as DOT names every node and stream", "[plan]") {
   const graph::Plan plan = plan_of(kHead + "  double: {node: multiply, in: n, out: r}\n");
   const std::string dot = graph::to_dot({&plan});
-  for (const char* part : {"\"n\" -> \"test/double\"", "\"test/double\" -> \"r\"", "(multiply)"})
+  for (const char* part : {"\"n\" -> \"test/double\" [label=\"n\", tooltip=\"n: ",
+                           "\"test/double\" -> \"r\"", "(multiply)", "rankdir=TB"})
     CHECK(dot.find(part) != std::string::npos);
 }
 

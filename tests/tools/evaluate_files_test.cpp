@@ -51,7 +51,7 @@ TEST_CASE("missing or contradictory truth is named", "[evaluate]") {
   set.write("test/000001/scene_gt.json", R"({"3": [)" + TruthSet::entry(1, "0, 0") + "]}");
   CHECK_THAT(message(set), Contains("image 3, instance 0: cam_t_m2c has 2 numbers"));
   set.write("test/000001/scene_gt.json", "[");
-  CHECK_THAT(message(set), Contains("scene_gt.json: is no JSON object"));
+  CHECK_THAT(message(set), Contains("scene_gt.json: is no JSON: parse error at line 1"));
   std::filesystem::remove_all(set / "test/000001");
   CHECK_THAT(message(set), Contains("no true pose"));
   const TruthSet no_model;

@@ -36,6 +36,40 @@ TEST_CASE("scans come in the order in which people count", "[inputs]") {
   CHECK(names == std::vector<std::string>{"scan", "scan1_b", "scan002", "scan2", "scan10"});
 }
 
+TEST_CASE("models are numbered as people count, in whatever order, each once", "[inputs]") {
+  const TemporaryFolder folder;
+  std::vector<std::string> given;
+  for (const char* name : {"part10.ply", "part2.ply", "part1.ply"})
+    given.push_back(folder.write(name, ""));
+  const auto names = [](const std::vector<std::string>& arguments) {
+    std::vector<std::string> list;
+    for (const ModelFile& model : list_models(arguments))
+      list.push_back(std::to_string(model.obj_id) + " " + model.name);
+    return list;
+  };
+  const std::vector<std::string> expected{"1 part1", "2 part2", "3 part10"};
+  CHECK(names(given) == expected);
+  CHECK(names({given[1], given[0], given[2]}) == expected);
+  CHECK(names({(folder / "*.ply").string(), given[2]}) == expected);
+  CHECK(names({folder.path().string()}) == expected);
+}
+
+TEST_CASE("no two scans have one name", "[inputs]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"000001_a.ply", "a.off", "a.pcd", "b.ply"}) folder.write(name, "");
+  std::vector<std::string> names;
+  for (const SceneEntry& scene : list_scenes({folder.path().string()})) names.push_back(scene.name);
+  CHECK(names == std::vector<std::string>{"000000_000001_a", "000001_a", "000002_a", "b"});
+}
+
+TEST_CASE("what a folder holds beside what can be read is counted", "[inputs]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.tiff", "b.tiff", "c.npy", "a.json", "a.pose", ".hidden.x"})
+    folder.write(name, "");
+  CHECK_THROWS_WITH(list_scenes({folder.path().string()}),
+                    Catch::EndsWith(" file in it, but 1 file .npy, 2 files .tiff"));
+}
+
 TEST_CASE("an argument that matches nothing is named", "[inputs]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(list_scenes({"/nowhere/x.ply"}),
@@ -113,7 +147,7 @@ TEST_CASE("models_info.json beside the models says their symmetries", "[inputs]"
   CHECK(models[1].symmetries->axes.size() == 1);
   folder.write("models/models_info.json", "{");
   CHECK_THROWS_WITH(list_models({(folder / "models").string()}),
-                    Catch::Contains("models_info.json: is no JSON object"));
+                    Catch::Contains("models_info.json: is no JSON: parse error at line 1"));
 }
 
 TEST_CASE("shards share out all scans and keep their numbers", "[inputs]") {

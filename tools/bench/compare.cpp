@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "nodes/formats/json_text.hpp"
 #include "tools/bench/bench.hpp"
 
 namespace posevote {
@@ -12,14 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json read_bench(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::invalid_argument(file + ": cannot be read");
   try {
-    Json methods = Json::parse(stream);
+    auto methods = formats::read_json<Json>(file);
     for (const Json& method : methods) method.at("online_s").get<double>();
     return methods;
   } catch (const Json::exception& error) {
-    throw std::invalid_argument(file + ": not written by `posevote bench --out`: " + error.what());
+    throw std::invalid_argument(
+        file + ": not written by `posevote bench --out`: " + formats::reason_of(error));
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
   }
 }
 

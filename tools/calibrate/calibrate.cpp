@@ -32,7 +32,7 @@ int run_on(const TestSet& set, const CalibrateCommand& command,
   run.set.emplace_back("segment_objects.min_confidence=0");
   if (set.every > 1) run.shard = "1/" + std::to_string(set.every);
   run.resume = fs::exists(fs::path(run.out) / "effective.yaml");
-  run.quiet = true;
+  run.lines = false;
   return run_command(run, interrupted);
 }
 

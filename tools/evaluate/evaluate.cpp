@@ -8,6 +8,7 @@
 #include "graph/parallel.hpp"
 #include "tools/evaluate/calibration.hpp"
 #include "tools/evaluate/judge_image.hpp"
+#include "tools/progress/progress.hpp"
 
 namespace posevote {
 namespace {
@@ -156,10 +157,14 @@ Evaluation evaluate(const layouts::GroundTruth& truth, const std::vector<FoundIn
   std::vector<Cases::value_type*> images;
   for (auto& image : cases) images.push_back(&image);
   std::vector<std::vector<CaseResult>> results(images.size());
-  graph::parallel_for(images.size(), 1, [&](std::size_t i) {
-    results[i] = judge_image(truth, images[i]->first, images[i]->second, meters, evaluation.rules,
-                             options.min_score);
-  });
+  {
+    Progress progress({"images judged", images.size()});
+    graph::parallel_for(images.size(), 1, [&](std::size_t i) {
+      results[i] = judge_image(truth, images[i]->first, images[i]->second, meters, evaluation.rules,
+                               options.min_score);
+      progress.advance();
+    });
+  }
   summarise_all(results, evaluation);
   return evaluation;
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "nodes/formats/json_text.hpp"
 #include "pipelines/inputs.hpp"
 #include "pipelines/installed.hpp"
 #include "tools/commands.hpp"
@@ -67,8 +68,7 @@ void keep_shard(const fs::path& dataset, const std::string& split, const std::st
 }
 
 double seconds_per_image(const fs::path& results_json) {
-  std::ifstream stream(results_json);
-  const nlohmann::json frames = nlohmann::json::parse(stream).at("frames");
+  const nlohmann::json frames = formats::read_json<nlohmann::json>(results_json).at("frames");
   double sum = 0;
   for (const nlohmann::json& frame : frames)
     for (const auto& [stage, seconds] : frame.at("stages").items())
@@ -90,7 +90,7 @@ RunCommand make_run(const ExperimentCommand& command, const Method& method, cons
     run.set.emplace_back("train_opencv_ppf.sampling=0.1");
   run.shard = shard;
   run.resume = fs::exists(out / method.name / "effective.yaml");
-  run.quiet = true;
+  run.lines = false;
   return run;
 }
 

@@ -112,7 +112,7 @@ int run_method(const Method& method, const Subject& subject, const fs::path& sca
   run.out = (out / method.name).string();
   run.cache = (out / "cache").string();
   run.resume = fs::exists(out / method.name / "effective.yaml");
-  run.quiet = true;
+  run.lines = false;
   std::printf("%s\n", method.name.c_str());
   return run_command(run, interrupted);
 }

@@ -5,31 +5,29 @@
 namespace posevote {
 namespace {
 
-struct Inspected {
-  std::string config;
-  std::vector<std::string> set;
-  bool flat = false;
-};
-
-void add_config(CLI::App& app, Inspected& inspected) {
-  app.add_option("config", inspected.config, "A file, or a name from configs/")->required();
-  add_set(app, inspected.set);
+void add_options(CLI::App& app, InspectCommand& command) {
+  app.add_option("config", command.config, "A file, or a name that `posevote configs` lists")
+      ->required();
+  app.add_option("--pipeline", command.pipeline, "Other wiring than the config's")
+      ->type_name("NAME");
+  add_set(app, command.set);
 }
 
-const auto check = register_command<Inspected>(
+const auto check = register_command<InspectCommand>(
     "check", "Report every problem of a config at once",
-    [](CLI::App& app, Inspected& inspected) {
-      add_config(app, inspected);
-      app.add_flag("--flat", inspected.flat,
-                   "Print the pipeline, with what it extends, as one file");
+    [](CLI::App& app, InspectCommand& command) {
+      add_options(app, command);
+      app.add_flag("--flat", command.flat, "Print the pipeline, with what it extends, as one file");
     },
-    [](const Inspected& inspected) {
-      return check_command(inspected.config, inspected.set, inspected.flat);
-    });
+    check_command);
 
-const auto graph_registered = register_command<Inspected>(
-    "graph", "Print the wiring as Graphviz DOT", add_config,
-    [](const Inspected& inspected) { return graph_command(inspected.config, inspected.set); });
+const auto graph_registered = register_command<InspectCommand>(
+    "graph", "Print the wiring as Graphviz DOT: posevote graph uwa | dot -Tpng > uwa.png",
+    add_options, graph_command);
+
+const auto configs = register_command<bool>(
+    "configs", "List the configs and pipelines that can be named",
+    [](CLI::App& app, bool& json) { app.add_flag("--json", json, "As JSON"); }, configs_command);
 
 const auto nodes = register_command<std::string>(
     "nodes", "List the node types, or explain one",

@@ -27,7 +27,8 @@ void add_options(CLI::App& app, RunCommand& command) {
       "Writes results.csv (BOP format), results.json, failures.json, effective.yaml and "
       "trace.json\n"
       "to --out. Exit status: 0 all frames answered, 1 some failed, 2 nothing ran, 130 Ctrl-C.");
-  app.add_option("config", command.config, "A file, or a name from configs/ (demo, uwa, bop ...)")
+  app.add_option("config", command.config,
+                 "A file, or a name that `posevote configs` lists (demo, uwa, bop ...)")
       ->capture_default_str();
   app.add_option("--models", command.models, "Model files, folders or globs")->type_name("FILE");
   app.add_option("--scenes", command.scenes, "Scan files, folders or globs")->type_name("FILE");
@@ -39,7 +40,7 @@ void add_options(CLI::App& app, RunCommand& command) {
   app.add_option("--library", command.library, "A library from `posevote train`, not --models")
       ->type_name("FILE");
   app.add_option("--pipeline", command.pipeline,
-                 "Other wiring than the config's, from pipelines/ (ransac, hough3d ...)")
+                 "Other wiring than the config's, as `posevote configs` lists (ransac ...)")
       ->type_name("NAME");
   add_frames(app, command);
   add_set(app, command.set);
@@ -65,7 +66,10 @@ void add_options(CLI::App& app, RunCommand& command) {
   app.add_option("--on-error", command.on_error, "After a model or a frame that fails")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
-  app.add_flag("--quiet", command.quiet, "Only errors and the last line");
+  CLI::Option* quiet = app.add_flag("--quiet", command.quiet, "Only errors and the last line");
+  app.add_flag("-v,--verbose", command.verbose,
+               "What was found and measured in every frame, and what each node took")
+      ->excludes(quiet);
 }
 
 const auto registered = register_command<RunCommand>(

@@ -15,6 +15,7 @@ void add_options(CLI::App& app, TrainCommand& command) {
   app.add_option("--on-error", command.on_error, "After a model that cannot be used")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
+  app.add_flag("--quiet", command.quiet, "No line that shows how far it is");
   app.add_flag("--report", command.report, "List the symmetries of each model, exact and near");
   add_unit(app, "--model-unit", command.model_unit, "Unit of length in model files");
   add_set(app, command.set);

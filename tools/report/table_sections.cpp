@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "nodes/formats/file_bytes.hpp"
+#include "nodes/formats/json_text.hpp"
 #include "tools/report/csv_table.hpp"
 #include "tools/report/folder.hpp"
 #include "tools/report/sections.hpp"
@@ -32,9 +32,8 @@ std::string plot(const fs::path& svg) {
 template <class Write>
 std::string notes_from(const fs::path& file, const Write& write) {
   try {
-    std::ifstream stream(file);
-    return write(Json::parse(stream));
-  } catch (const Json::exception&) {
+    return write(formats::read_json<Json>(file));
+  } catch (const std::exception&) {
     return html::paragraph(file.filename().string() + " cannot be read.");
   }
 }

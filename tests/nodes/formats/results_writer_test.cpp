@@ -148,7 +148,9 @@ TEST_CASE("resuming keeps answered frames and drops what a killed run left half 
   std::ofstream(folder / "out/results.csv", std::ios::app)
       << formats::csv_rows(frame(4), one_chef()) << "0,5";
   std::ofstream(folder / "out/results.json", std::ios::app) << "{\"frame\": 5, \"fi";
-  CHECK(formats::begin_results(folder / "out", true) == std::set<std::size_t>{0, 1});
+  const std::filesystem::path scan = frame(0).file.path;
+  CHECK(formats::begin_results(folder / "out", true, {{0, scan}, {1, scan}, {2, "b.ply"}}) ==
+        std::set<std::size_t>{0, 1});
   CHECK(read_text(folder / "out/results.csv") ==
         "scene_id,im_id,obj_id,score,R,t,time\n" + formats::csv_rows(frame(0), one_chef()));
   formats::ResultsWriter(folder / "out").write(frame(2), one_chef(), {});
@@ -175,6 +177,27 @@ TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touc
                          {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
   CHECK(read_text(folder / "out/results.csv") ==
         "scene_id,im_id,obj_id,score,R,t,time\n" + formats::csv_rows(frame(0), one_chef()));
+}
+
+TEST_CASE("resuming one shard keeps the failures of the others", "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out", false);
+  formats::ResultsWriter(folder / "out").write({1, "b.ply", "load_scene", "empty"});
+  formats::begin_results(folder / "out", true, {{0, "a.ply"}});
+  formats::ResultsWriter(folder / "out").write({0, "a.ply", "load_scene", "empty"});
+  const nlohmann::json failures = json(folder / "out/failures.json");
+  REQUIRE(failures.size() == 2);
+  CHECK(failures[0]["frame"] == 1);
+  formats::begin_results(folder / "out", true, {{0, "a.ply"}, {1, "b.ply"}});
+  CHECK(json(folder / "out/failures.json").empty());
+}
+
+TEST_CASE("results that no run wrote are named, without the JSON library's words", "[write]") {
+  const TemporaryFolder folder;
+  folder.write("results.json", "{\"frame\": \"one\", \"im_id\": 1}\n");
+  CHECK_THROWS_WITH(formats::begin_results(folder.path(), true),
+                    Catch::Contains("results.json: is not what a run wrote: ") &&
+                        !Catch::Contains("json.exception"));
 }
 
 TEST_CASE("a full disk keeps what is written and names the file", "[write]") {

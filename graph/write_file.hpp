@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace posevote::graph {
+
+/// The cause that the C library gives in an errno; a guess where it gives none.
+std::string cause_of(int error);
+
+/// Writes a file anew: under its name there is what was there before, or all of `bytes`, whatever
+/// happens between. What is no plain file (a pipe, /dev/stdout) is written as it is. Throws
+/// std::runtime_error "FILE: cannot be written: cause".
+void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace posevote::graph
