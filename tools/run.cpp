@@ -18,6 +18,7 @@
 #include "pipelines/library.hpp"
 #include "pipelines/overrides.hpp"
 #include "tools/commands.hpp"
+#include "tools/run_record.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -106,7 +107,7 @@ bool writes_results(const Configuration& configuration) {
 /// Takes away what a run writes, and nothing else that may lie there.
 void remove_earlier_run(const fs::path& out) {
   for (const char* file : {"results.csv", "results.json", "failures.json", "effective.yaml",
-                           "trace.json", "pictures", "overlays", "correspondences"})
+                           "trace.json", "run.json", "pictures", "overlays", "correspondences"})
     fs::remove_all(out / file);
 }
 
@@ -229,6 +230,9 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   // A resumed run has it; a full disk must not take it.
   if (!command.resume || !fs::exists(effective))
     as_arguments([&] { write_text(effective, description); });
+  as_arguments([&] {
+    record_run(command, command.library.empty() ? find_models(command) : ModelFiles(), *library);
+  });
   const graph::RunSummary summary =
       run_scenes(command, configuration, constants, scenes, interrupted);
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
