@@ -128,6 +128,24 @@ TEST_CASE("a model in another unit is named", "[explain]") {
   CHECK(text_of(object).find("unit") != std::string::npos);
 }
 
+TEST_CASE("a setting is advised once it was tried", "[explain]") {
+  const World& w = world();
+  const CommandResult run =
+      w.run("strict-out", "--set segment_objects.min_confidence=0.999999 --scenes " +
+                              (w.scans / "000001.ply").string());
+  INFO(run.output);
+  REQUIRE(run.status == 0);
+  const nlohmann::json object = explained((w.folder / "strict-out").string() + " --object 1 --try");
+  INFO(object.dump(1));
+  CHECK(object["found"] == false);
+  CHECK(object["verdict"]["cause"] == "refused");
+  REQUIRE(object["tried"].size() >= 1);
+  CHECK(object["tried"].back()["found"] == true);
+  CHECK(object["tried"].back()["setting"].get<std::string>().find("min_confidence=0.") !=
+        std::string::npos);
+  CHECK(text_of(object).find("finds it") != std::string::npos);
+}
+
 TEST_CASE("a scan that failed says in which node", "[explain]") {
   const World& w = world();
   w.folder.write("unreadable.ply", "Dear sir or madam\n");

@@ -2,6 +2,7 @@
 // Which stage a verdict names, by made-up figures.
 #include <catch2/catch.hpp>
 
+#include "tools/explain/attempts.hpp"
 #include "tools/explain/sentences.hpp"
 #include "tools/explain/verdict.hpp"
 
@@ -162,4 +163,23 @@ TEST_CASE("sentences hold the figures", "[explain]") {
   for (const char* part : {"80 % lie on the scan", "200 of the scan's", "60 of them", "30 corresp",
                            "20.0 there", "lost at 'sketch'", "confidence 0.90", "votes (-1.5)"})
     CHECK(text.find(part) != std::string::npos);
+}
+
+TEST_CASE("only settings that act on the stage are tried", "[explain]") {
+  Explained one;
+  const auto settings = [&one](Cause cause, const std::string& stage) {
+    one.verdict = {cause, stage, ""};
+    return settings_for(one, {}, 0.004);
+  };
+  CHECK(settings(Cause::kNotSeen, "").empty());
+  CHECK(settings(Cause::kOutranked, "glance").front() == "segment_objects.shortlist=640");
+  CHECK(settings(Cause::kOutranked, "refine").front() == "segment_objects.finalists=20");
+  CHECK(settings(Cause::kDisagree, "").at(2) == "scan_octaves.finest=0.002");
+  one.best = good();
+  one.best->left.confidence = 0.3;
+  CHECK(settings(Cause::kRefused, "votes") ==
+        std::vector<std::string>{"segment_objects.min_confidence=0.30"});
+  CHECK(settings(Cause::kRefused, "exactness").front() == "segment_objects.max_residual=3");
+  one.best->left.confidence = 0.01;  // nothing makes that one right
+  CHECK(settings(Cause::kRefused, "votes").empty());
 }

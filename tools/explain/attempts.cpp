@@ -27,14 +27,16 @@ std::vector<std::string> wider_search(const std::string& step, const poses::Segm
   if (step == "sketch" || step == "leave out likes")
     return {of + format("sketch_points=%d", 4 * schedule.sketch_points),
             of + format("judged_per_place=%d", 4 * params.terms.pool.judged_per_place)};
-  return {of + format("promising=%d", std::min(10000, 5 * schedule.promising)),
-          of + format("finalists=%d", std::min(1000, 5 * schedule.finalists))};
+  const std::string promising =
+      of + format("promising=%d", std::min(10000, 5 * schedule.promising));
+  const std::string finalists = of + format("finalists=%d", std::min(1000, 5 * schedule.finalists));
+  if (step == "bring closer") return {promising, finalists};
+  return {finalists, promising};
 }
 
-std::vector<std::string> better_votes(const Taps& taps) {
+std::vector<std::string> better_votes(double resolution) {
   std::vector<std::string> settings{"cast_pairs.references=1000", "scan_octaves.radii=3"};
-  if (const double resolution = taps.figure("resolution_m"); resolution > 0)
-    settings.push_back(format("scan_octaves.finest=%.4g", resolution / 2));
+  if (resolution > 0) settings.push_back(format("scan_octaves.finest=%.4g", resolution / 2));
   settings.emplace_back("drop_flat.min_relief=0");
   return settings;
 }
@@ -54,8 +56,8 @@ bool is_new(const Explained& one, const Taps& taps, const Detection& detection) 
 
 }  // namespace
 
-std::vector<std::string> settings_for(const Explained& one, const Taps& taps) {
-  const poses::SegmentParams& params = taps.run.segmentation();
+std::vector<std::string> settings_for(const Explained& one, const poses::SegmentParams& params,
+                                      double resolution) {
   const std::optional<Standing>& at = one.truth ? one.truth : one.best;
   switch (one.verdict.cause) {
     case Cause::kOutranked:
@@ -71,7 +73,7 @@ std::vector<std::string> settings_for(const Explained& one, const Taps& taps) {
     case Cause::kFewFeatures:
     case Cause::kNotMatched:
     case Cause::kDisagree:
-      return better_votes(taps);
+      return better_votes(resolution);
     case Cause::kMoved:
       return {format("segment_objects.icp_distance=%.3g", params.icp_distance / 2)};
     case Cause::kTooNear:
@@ -83,7 +85,8 @@ std::vector<std::string> settings_for(const Explained& one, const Taps& taps) {
 
 std::vector<Attempt> attempt(const Explained& one, const Taps& taps) {
   std::vector<Attempt> attempts;
-  for (const std::string& setting : settings_for(one, taps)) {
+  for (const std::string& setting :
+       settings_for(one, taps.run.segmentation(), taps.figure("resolution_m"))) {
     const std::optional<Detections> detections = taps.rerun(setting);
     if (!detections) continue;
     Attempt& made = attempts.emplace_back();

@@ -147,6 +147,7 @@ class Explainer {
     of.diagonal = static_cast<double>(model(i).diagonal);
     of.scan_size = geometry::robust_diagonal(taps_.cloud->points, 0.02);
     of.usual_size = usual_size(i);
+    of.resolution = static_cast<double>(taps_.scale.resolution);
     of.matches = taps_.correspondences[i].scene_feature.size();
     of.min_confidence = bench_.params.min_confidence;
     of.min_score = bench_.params.min_score;

@@ -130,7 +130,10 @@ std::string cause_of(const Verdict& verdict, const Case& of) {
     case Cause::kNotSeen:
       return unseen_sentence(verdict.detail);
     case Cause::kFewFeatures:
-      return format("the scan has %zu features on it, too few at its resolution", at.features);
+      return format(
+          "the scan has %zu features on it: it is too coarse (%.2g mm) for an object of "
+          "%.3g mm, or hardly shows it",
+          at.features, 1000 * of.resolution, 1000 * of.diagonal);
     case Cause::kNotMatched:
       return format("of %zu features on it %zu are matched to it", at.features, at.matched) +
              (at.matched_other > 0 ? format(", %zu to ", at.matched_other) + at.other : "");

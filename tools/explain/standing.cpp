@@ -112,8 +112,6 @@ Bench::Bench(const Taps& of, const SearchWatch& watched)
   take_out_found(search, taps, params, left);
 }
 
-Bench::~Bench() = default;
-
 void Bench::count_features(std::size_t object, const poses::Sought& sought,
                            Standing& standing) const {
   const std::vector<char> on = rows_on(sought.model, standing.T_scene_model, taps.features->points,

@@ -56,7 +56,6 @@ class Bench {
  public:
   /// Keeps references.
   Bench(const Taps& taps, const SearchWatch& search);
-  ~Bench();
 
   Standing stand(std::size_t object, const Eigen::Isometry3d& T_scene_model) const;
 
