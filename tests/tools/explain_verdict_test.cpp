@@ -106,7 +106,13 @@ TEST_CASE("a pose that was judged: refused by a clue, robbed, or too near", "[ex
   at.judged.against[kOutline] = 2;
   CHECK(cause_of(at) == Cause::kRefused);
   CHECK(judge_case(missed(at)).stage == "outline");
-  at.judged.confidence = 0.9;
+  at.judged.confidence = 0.9;  // less sure beside the scan's other instances
+  at.left.score = 0.5;
+  at.left.against[kExactness] = 3;
+  CHECK(judge_case(missed(at)).stage == "exactness");
+  at.left.confidence = 0.9;
+  CHECK(cause_of(at) == Cause::kMoved);
+  at.left.confidence = 0.3;
   at.taken = 0.7;
   at.taker = "plate";
   CHECK(cause_of(at) == Cause::kTaken);
@@ -126,6 +132,12 @@ TEST_CASE("a model of another unit is named before anything else", "[explain]") 
   of.usual_size = 0;  // one object alone: only the scan tells
   of.diagonal = 100;
   CHECK(judge_case(of).cause == Cause::kUnit);
+}
+
+TEST_CASE("what the true poses do not have is absent", "[explain]") {
+  Case of = missed(good(), false);
+  of.is_absent = true;
+  CHECK(judge_case(of).cause == Cause::kAbsent);
 }
 
 TEST_CASE("without a candidate the matches tell", "[explain]") {

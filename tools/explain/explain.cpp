@@ -158,6 +158,7 @@ class Explainer {
       of.pose = one.truth;
       of.is_true = true;
     }
+    of.is_absent = !one.is_found && !one.truth && !request_.truth.empty();
     one.verdict = judge_case(of);
     if (request_.attempt && !one.is_found) one.attempts = attempt(one, taps_);
     one.sentences = sentences(one, of);

@@ -109,8 +109,9 @@ std::string unseen_sentence(const std::string& detail) {
 }
 
 std::string refused_sentence(const Standing& at, const Verdict& verdict, const Case& of) {
-  std::string text = "it was judged, and refused: " +
-                     format("confidence %.2f of %.2f", at.judged.confidence, of.min_confidence);
+  std::string text =
+      "it was judged, and refused: " +
+      format("confidence %.2f of %.2f", deciding(at, of).confidence, of.min_confidence);
   for (std::size_t i = 0; i < kClueCount; ++i)
     if (verdict.stage == kClueNames[i]) text += std::string("; most of all ") + meaning_of(i);
   return text;
@@ -146,6 +147,11 @@ std::string cause_of(const Verdict& verdict, const Case& of) {
       return "other poses went first, it was lost at '" + verdict.stage +
              format("'; looked at closely its confidence is %.2f", at.judged.confidence);
     case Cause::kMoved:
+      if (at.stayed)
+        return format(
+            "what was refined near it ended beside it and was refused; the pose itself "
+            "has a confidence of %.2f",
+            at.left.confidence);
       return format("ICP carries it away, by %.1f mm and %.0f deg", 1000 * at.moved,
                     kDegrees * at.turned);
     case Cause::kTaken:
@@ -158,6 +164,8 @@ std::string cause_of(const Verdict& verdict, const Case& of) {
           1000 * at.near_same.value_or(0), 1000 * of.nms_radius);
     case Cause::kRefused:
       return refused_sentence(at, verdict, of);
+    case Cause::kAbsent:
+      return "by the true poses there is none of it in this scan";
     case Cause::kNoTrace:
       return format(
           "no trace of it: of %zu matches in the scan no pose gathers enough that the "

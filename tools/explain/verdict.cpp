@@ -57,7 +57,12 @@ Verdict judge_refused(const Case& of, const Standing& at) {
   if (at.judged.confidence >= of.min_confidence && at.left.confidence < of.min_confidence &&
       at.taken > kMuchTaken)
     return {Cause::kTaken, at.taker, ""};
-  return {Cause::kRefused, worst_clue(at.judged), ""};
+  return {Cause::kRefused, worst_clue(deciding(at, of)), ""};
+}
+
+/// What was refined near it was refused, though it would do itself.
+bool was_missed_narrowly(const Case& of, const Standing& at) {
+  return std::min(at.judged.confidence, at.left.confidence) >= of.min_confidence;
 }
 
 /// Before anybody looked at the pose: which stage gave too little.
@@ -71,6 +76,7 @@ std::optional<Verdict> judge_proposal(const Standing& at) {
 
 Verdict judge_true(const Case& of, const Standing& at) {
   if (is_unseen(at.seen)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
+  if (was_judged(at) && was_missed_narrowly(of, at)) return {Cause::kMoved, "", ""};
   if (was_judged(at)) return judge_refused(of, at);
   if (const auto early = judge_proposal(at)) return *early;
   if (!at.stayed) return {Cause::kMoved, "", ""};
@@ -89,17 +95,23 @@ Verdict judge_candidate(const Case& of, const Standing& at) {
 
 }  // namespace
 
+const Judged& deciding(const Standing& at, const Case& of) {
+  const bool is_by_rest = at.judged.confidence >= of.min_confidence && at.left.score > 0;
+  return is_by_rest ? at.left : at.judged;
+}
+
 const char* name_of(Cause cause) {
-  constexpr std::array<const char*, 14> kNames{
+  constexpr std::array<const char*, 15> kNames{
       "found",     "scan failed",  "model left out", "unit",
       "not seen",  "few features", "not matched",    "matches do not agree",
       "outranked", "moved by ICP", "points taken",   "too near to another",
-      "refused",   "no trace"};
+      "refused",   "no trace",     "absent"};
   return kNames.at(static_cast<std::size_t>(cause));
 }
 
 Verdict judge_case(const Case& of) {
   if (of.is_found) return {Cause::kFound, "", ""};
+  if (of.is_absent) return {Cause::kAbsent, "", ""};
   if (has_odd_size(of)) return {Cause::kUnit, "", ""};
   if (!of.pose) return {of.matches == 0 ? Cause::kNotMatched : Cause::kNoTrace, "", ""};
   return of.is_true ? judge_true(of, *of.pose) : judge_candidate(of, *of.pose);

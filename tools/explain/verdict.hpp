@@ -21,11 +21,12 @@ enum class Cause {
   kNotMatched,   ///< its features are matched to other objects
   kDisagree,     ///< matches there are, but they do not agree on the pose
   kOutranked,    ///< wrong poses had more support or a better first look
-  kMoved,        ///< ICP carried it away
+  kMoved,        ///< ICP carried it away, or ended beside it
   kTaken,        ///< another instance took its points
   kTooNear,      ///< another instance of its kind closed its place
   kRefused,      ///< it was judged, and found not sure enough
   kNoTrace,      ///< no candidate that may be it, and nobody says where it is
+  kAbsent,       ///< the true poses say that it is not in the scan
 };
 
 /// "not seen", "refused" ...
@@ -40,6 +41,7 @@ struct Case {
   std::size_t matches = 0;  ///< of the object in the whole scan
   double min_confidence = 0.5, min_score = 0.1;
   double nms_radius = 0;         ///< [m]
+  bool is_absent = false;        ///< known not to be there
   bool is_true = false;          ///< whether the pose is known to be right
   std::optional<Standing> pose;  ///< that is looked at; none: there is no candidate
 };
@@ -51,6 +53,10 @@ struct Verdict {
 };
 
 Verdict judge_case(const Case& of);
+
+/// What a refusal rests on: the whole scan, or, where that would do, what other instances left, whose
+/// residual counts, too.
+const Judged& deciding(const Standing& at, const Case& of);
 
 /// A setting that was tried.
 struct Attempt {
