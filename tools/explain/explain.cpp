@@ -42,7 +42,8 @@ Explained without_search(const std::string& model, int obj_id, const Verdict& ve
   return one;
 }
 
-/// The search with more of everything: what it finds beyond the run's was outranked.
+/// The search with more of everything, for one object in the whole scan: what it finds beyond the
+/// run's was outranked, or its points were taken.
 poses::SegmentParams deeper(const poses::SegmentParams& params) {
   poses::SegmentParams more = params;
   more.terms.schedule.shortlist = std::min(10000, 4 * params.terms.schedule.shortlist);
@@ -57,7 +58,6 @@ class Explainer {
       : taps_(taps),
         request_(request),
         search_(taps, taps.run.segmentation()),
-        deep_(taps, deeper(taps.run.segmentation())),
         bench_(taps, search_) {}
 
   std::vector<Explained> object(std::size_t i) const {
@@ -77,8 +77,11 @@ class Explainer {
         truth.erase(same);
       }
     }
-    for (const Eigen::Isometry3d& pose : truth) all.push_back(missed(i, &pose));
-    if (all.empty()) all.push_back(missed(i, nullptr));
+    if (!truth.empty() || all.empty()) {
+      const std::optional<Eigen::Isometry3d> best = best_candidate(i);
+      for (const Eigen::Isometry3d& pose : truth) all.push_back(missed(i, best, &pose));
+      if (all.empty()) all.push_back(missed(i, best, nullptr));
+    }
     for (Explained& one : all) conclude(i, one);
     return all;
   }
@@ -98,10 +101,11 @@ class Explainer {
     return one;
   }
 
-  /// The best candidate: of the run's own search or of a deeper one, or the highest mode.
+  /// The best candidate: of the run's own search or of the deeper one, or the highest mode.
   std::optional<Eigen::Isometry3d> best_candidate(std::size_t i) const {
+    const SearchWatch alone(taps_, deeper(taps_.run.segmentation()), i);
     const poses::Candidate* best = nullptr;
-    for (const SearchWatch* search : {&search_, &deep_})
+    for (const SearchWatch* search : {&search_, &alone})
       for (const auto* list : {&search->instances().rejected, &search->instances().found})
         for (const poses::Instance& one : *list) {
           if (one.object != i || is_found_near(i, one.candidate.T_scene_model)) continue;
@@ -121,9 +125,10 @@ class Explainer {
     });
   }
 
-  Explained missed(std::size_t i, const Eigen::Isometry3d* truth) const {
+  Explained missed(std::size_t i, const std::optional<Eigen::Isometry3d>& best,
+                   const Eigen::Isometry3d* truth) const {
     Explained one = named(i);
-    if (const auto pose = best_candidate(i)) one.best = bench_.stand(i, *pose);
+    if (best) one.best = bench_.stand(i, *best);
     if (!truth) return one;
     one.truth = bench_.stand(i, *truth);
     if (one.best) one.best_is_true = Alike(model(i), *truth).is_near(one.best->T_scene_model);
@@ -166,7 +171,7 @@ class Explainer {
 
   const Taps& taps_;
   const Request& request_;
-  const SearchWatch search_, deep_;
+  const SearchWatch search_;
   const Bench bench_;
 };
 

@@ -18,21 +18,29 @@ Place place_in(const Step& step, const Alike& pose) {
 
 }  // namespace
 
-SearchWatch::SearchWatch(const Taps& taps, const poses::SegmentParams& params)
+SearchWatch::SearchWatch(const Taps& taps, const poses::SegmentParams& params,
+                         std::optional<std::size_t> only)
     : steps_(taps.votes.size()) {
   poses::ScanState scan(*taps.cloud, *taps.features, taps.scale.resolution, params.terms);
   std::vector<segment::LiveVotes> objects;
-  for (std::size_t i = 0; i < taps.votes.size(); ++i)
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < taps.votes.size(); ++i) {
+    if (only && *only != i) continue;
     objects.push_back(segment::all_votes(taps.votes[i], taps.densities[i]));
+    numbers.push_back(i);
+  }
   std::vector<poses::ObjectSearch> searches;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     poses::Sought sought = segment::sought_for(objects[i], scan, params);
-    sought.watch = [&steps = steps_[i]](const char* step, const poses::Candidates& candidates) {
+    sought.watch = [&steps = steps_[numbers[i]]](const char* step,
+                                                 const poses::Candidates& candidates) {
       steps.push_back({step, candidates});
     };
     searches.emplace_back(sought, segment::propose_from(objects[i], scan, params.terms));
   }
   instances_ = poses::find_instances(searches, scan);
+  for (auto* list : {&instances_.found, &instances_.rejected})
+    for (poses::Instance& one : *list) one.object = numbers[one.object];
 }
 
 std::vector<Place> way_of(const std::vector<Step>& steps, const Alike& pose) {

@@ -3,6 +3,7 @@
 // candidates of its object.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,13 @@ struct Step {
   poses::Candidates candidates;
 };
 
-/// Watched searches of all objects over one scan.
+/// Watched searches over one scan.
 class SearchWatch {
  public:
-  /// Searches as segment_objects does; `terms`: by these and not the run's.
-  SearchWatch(const Taps& taps, const poses::SegmentParams& params);
+  /// Searches by these parameters as segment_objects does; `only`: that object alone, so that no
+  /// other takes its points.
+  SearchWatch(const Taps& taps, const poses::SegmentParams& params,
+              std::optional<std::size_t> only = std::nullopt);
 
   const std::vector<Step>& steps(std::size_t object) const { return steps_[object]; }
   const poses::Instances& instances() const { return instances_; }

@@ -13,8 +13,7 @@ constexpr double kMostlyHidden = 0.55;    // of them, that say nothing
 constexpr std::size_t kFewFeatures = 15;  // on the pose
 constexpr double kFewMatched = 0.04;      // of these
 constexpr std::size_t kFewAgreeing = 5;   // correspondences and pairs that vote for the pose
-constexpr double kLikely = 0.1;           // confidence from which a candidate may be the object,
-constexpr std::size_t kManyAgreeing = 8;  // or votes for it
+constexpr double kLikely = 0.1;           // confidence from which a candidate may be the object
 constexpr double kMuchTaken = 0.3;        // of its points, by others
 constexpr double kOddSize = 30;           // x other objects
 constexpr double kTooLarge = 3;           // x scan
@@ -88,8 +87,7 @@ Verdict judge_true(const Case& of, const Standing& at) {
 Verdict judge_candidate(const Case& of, const Standing& at) {
   if (at.left.confidence >= of.min_confidence) return {Cause::kOutranked, step_that_lost(at), ""};
   const Verdict refused = judge_refused(of, at);
-  const bool may_be_it = at.judged.confidence >= kLikely || at.agreeing + at.pairs >= kManyAgreeing;
-  if (refused.cause != Cause::kRefused || may_be_it) return refused;
+  if (refused.cause != Cause::kRefused || at.judged.confidence >= kLikely) return refused;
   return {Cause::kNoTrace, worst_clue(at.judged), ""};
 }
 

@@ -38,6 +38,7 @@ struct Case {
   double diagonal = 0;      ///< of the object [m]
   double scan_size = 0;     ///< diagonal of the scan [m]
   double usual_size = 0;    ///< median of the other objects' diagonals [m]; 0: no others
+  double resolution = 0;    ///< of the scan as it was prepared [m]
   std::size_t matches = 0;  ///< of the object in the whole scan
   double min_confidence = 0.5, min_score = 0.1;
   double nms_radius = 0;         ///< [m]
