@@ -7,7 +7,8 @@
 namespace posevote::explain {
 namespace {
 
-// Where figures fall short. Of true poses that were found on the sets at hand nearly all have more.
+// Where figures fall short. Round numbers, chosen by hand and held against misses of real and
+// simulated sets; they decide what a miss is called and nothing else.
 constexpr double kHardlySeen = 0.15;      // of the points that face the sensor, on the scan
 constexpr double kMostlyHidden = 0.55;    // of them, that say nothing
 constexpr std::size_t kFewFeatures = 15;  // on the pose
