@@ -88,7 +88,9 @@ Verdict judge_true(const Case& of, const Standing& at) {
 Verdict judge_candidate(const Case& of, const Standing& at) {
   if (at.left.confidence >= of.min_confidence) return {Cause::kOutranked, step_that_lost(at), ""};
   const Verdict refused = judge_refused(of, at);
-  if (refused.cause != Cause::kRefused || at.judged.confidence >= kLikely) return refused;
+  // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
+  const double confidence = (at.taken > kMuchTaken ? at.left : at.judged).confidence;
+  if (refused.cause != Cause::kRefused || confidence >= kLikely) return refused;
   return {Cause::kNoTrace, worst_clue(at.judged), ""};
 }
 
