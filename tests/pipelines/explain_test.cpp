@@ -114,8 +114,8 @@ TEST_CASE("a model in another unit is named", "[explain]") {
   const World& w = world();
   fs::create_directories(w.folder / "units");
   fs::copy(w.models / "obj_000002.ply", w.folder / "units/obj_000002.ply");
-  const Scan metres = formats::read_scan(w.models / "obj_000001.ply", 0.001);
-  formats::write_ply(w.folder / "units/obj_000001.ply", metres, 1);
+  const Scan micrometres = formats::read_scan(w.models / "obj_000001.ply", 1000);
+  formats::write_ply(w.folder / "units/obj_000001.ply", micrometres, 1);
   const std::string out = (w.folder / "units-out").string();
   const CommandResult run =
       run_posevote(w.folder, "run demo --models " + (w.folder / "units").string() + " --scenes " +
