@@ -14,10 +14,15 @@ ObjectSearch::ObjectSearch(const Sought& sought, Proposals proposals)
 
 void ObjectSearch::propose() {
   pool_ = collect(sought_, proposals_.propose(), taken_);
+  show("propose", pool_);
   make_shortlist(sought_, pool_);
+  show("glance", pool_);
   sketch(sought_, pool_, proposals_.improve);
+  show("sketch", pool_);
   leave_out_likes(sought_, pool_);
+  show("leave out likes", pool_);
   bring_closer(sought_, pool_);
+  show("bring closer", pool_);
   proposed_at_ = sought_.scan.takes;
   choose();
 }
@@ -25,7 +30,9 @@ void ObjectSearch::propose() {
 void ObjectSearch::choose() {
   chosen_at_ = sought_.scan.takes;
   bring_finalists_forward(sought_, pool_);
+  show("look", pool_);
   best_ = best_finalist();
+  if (best_) show("choose", {*best_});
   if (best_ && is_convincing(sought_, *best_)) {
     polish(sought_, *best_);
     if (is_convincing(sought_, *best_) && taken_.is_clear(sought_.model, best_->T_scene_model))
@@ -43,6 +50,7 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
     const Candidates::iterator end = refine_best(sought_, pool_);
     if (end == pool_.begin()) break;
     sort_by_rank(pool_.begin(), end);
+    if (sought_.watch) show("refine", {pool_.begin(), end});
     if (auto best = best_of(pool_.begin(), end)) return best;
     pool_.erase(pool_.begin(), end);
   }

@@ -50,6 +50,9 @@ class ObjectSearch {
   void accept();
 
  private:
+  void show(const char* step, const Candidates& candidates) const {
+    if (sought_.watch) sought_.watch(step, candidates);
+  }
   std::optional<Candidate> best_finalist();
   std::optional<Candidate> best_of(Candidates::const_iterator begin,
                                    Candidates::const_iterator end) const;

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "nodes/poses/scan_state.hpp"
 #include "nodes/poses/terms.hpp"
 
 namespace posevote::poses {
+
+struct Candidate;
+
+/// Sees the candidates of an object after a step of its search, the best first. Searches run side by
+/// side: so may calls for different objects.
+using Watch = std::function<void(const char* step, const std::vector<Candidate>& candidates)>;
 
 /// The rules for one object; lengths in m.
 struct InstanceParams {
@@ -35,6 +42,7 @@ struct Sought {
   /// Rows of the scan's features whose scale the model was described at; they alone can vote.
   std::vector<Octave> voters = {};
   double most_support = 1;  ///< of the poses that are compared
+  Watch watch = {};         ///< empty: nobody wants to see
 };
 
 }  // namespace posevote::poses

@@ -16,25 +16,12 @@
 //
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}
-#include <algorithm>
-
 #include "nodes/density/refine_mode.hpp"
 #include "nodes/poses/segment_params.hpp"
-#include "nodes/segment/live_votes.hpp"
+#include "nodes/segment/vote_search.hpp"
 
 namespace posevote::segment {
 namespace {
-
-/// The scan's features at the scales at which a model was described.
-std::vector<Octave> voters_for(const Model& model, const FeatureSet& scene_features) {
-  const std::vector<Octave> octaves = octaves_of(model.features);
-  std::vector<Octave> voters = octaves_of(scene_features);
-  std::erase_if(voters, [&](const Octave& rows) {
-    return std::none_of(octaves.begin(), octaves.end(),
-                        [&](const Octave& octave) { return same_scale(octave, rows.resolution); });
-  });
-  return voters;
-}
 
 Detection make_detection(const LiveVotes& object, const poses::Candidate& candidate,
                          const poses::ConfidenceTerms& terms) {
@@ -45,22 +32,6 @@ Detection make_detection(const LiveVotes& object, const poses::Candidate& candid
       density::runner_up_density(*object.votes, object.raw->density, candidate.proposed.center,
                                  poses::kRunnerUpRadius * model.diagonal);
   return detection;
-}
-
-poses::Proposals propose_from(LiveVotes& object, const poses::ScanState& scan,
-                              const density::ShiftTerms& shift) {
-  return {[&object, &scan] {
-            remove_explained(object, scan.feature_explained);
-            std::vector<Hypothesis> modes;
-            for (const std::uint32_t vote : density::best_votes(*object.votes, object.density)) {
-              modes.push_back(density::vote_hypothesis(*object.votes, vote));
-              modes.back().support = object.density[vote];
-            }
-            return modes;
-          },
-          [&object, &shift](const Hypothesis& mode) {
-            return density::refine_mode(*object.votes, *object.raw, object.alive, mode, shift);
-          }};
 }
 
 Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
@@ -74,16 +45,9 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
   for (std::size_t i = 0; i < votes.size(); ++i)
     objects.push_back(all_votes(votes[i], densities[i]));
   std::vector<poses::ObjectSearch> searches;
-  for (LiveVotes& object : objects) {
-    const Model& model = object.votes->model->at(scan.resolution);
-    const poses::Sought sought{model,
-                               scan,
-                               poses::instance_params(params, model, scan.resolution),
-                               params.terms,
-                               object.votes->votes_per_correspondence,
-                               voters_for(*object.votes->model, scene_features)};
-    searches.emplace_back(sought, propose_from(object, scan, params.terms.shift));
-  }
+  for (LiveVotes& object : objects)
+    searches.emplace_back(sought_for(object, scan, params),
+                          propose_from(object, scan, params.terms));
   return poses::make_detections(
       poses::find_instances(searches, scan), params, [&](const poses::Instance& instance) {
         return make_detection(objects[instance.object], instance.candidate,

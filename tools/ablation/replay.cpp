@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "graph/node_call.hpp"
 
@@ -29,10 +30,11 @@ std::vector<bool> nodes_before(const graph::Plan& plan, int result) {
   return needed;
 }
 
-void call(const graph::PlannedNode& node, std::vector<graph::Value>& values) {
+void call(const graph::PlannedNode& node, const graph::FrameContext& context,
+          std::vector<graph::Value>& values) {
   std::vector<graph::Value> inputs;
   for (const int input : node.inputs) inputs.push_back(values[std::size_t(input)]);
-  std::vector<graph::Value> made = graph::call_node(node, inputs, {});
+  std::vector<graph::Value> made = graph::call_node(node, inputs, context);
   for (std::size_t i = 0; i < made.size(); ++i)
     if (node.outputs[i] >= 0) values[std::size_t(node.outputs[i])] = std::move(made[i]);
 }
@@ -46,15 +48,17 @@ const graph::PlannedNode& find_planned(const graph::Plan& plan, const std::strin
 }
 
 Replay::Replay(const graph::Plan& plan, const graph::Constants& constants,
-               const std::vector<graph::Value>& inputs, std::optional<int> stream)
+               const std::vector<graph::Value>& inputs, graph::FrameContext context,
+               std::optional<int> stream)
     : plan_(plan),
+      context_(std::move(context)),
       needed_(nodes_before(plan, stream.value_or(plan.result))),
       values_(plan.streams.size()) {
   for (const auto& [name, value] : constants) values_[number_of(plan, name)] = value.value;
   for (std::size_t i = 0; i < inputs.size(); ++i)
     values_[std::size_t(plan.inputs.at(i))] = inputs[i];
   for (std::size_t i = 0; i < plan.nodes.size(); ++i)
-    if (needed_[i] && !plan.nodes[i].constant) call(plan.nodes[i], values_);
+    if (needed_[i] && !plan.nodes[i].constant) call(plan.nodes[i], context_, values_);
 }
 
 const graph::Value& Replay::value(const std::string& stream) const {
@@ -72,7 +76,7 @@ graph::Value Replay::rerun(const graph::PlannedNode& changed,
     const bool depends = std::any_of(node.inputs.begin(), node.inputs.end(),
                                      [&](int input) { return differs[std::size_t(input)]; });
     if (!needed_[i] || !(is_changed || depends)) continue;
-    call(node, values);
+    call(node, context_, values);
     for (const int output : node.outputs)
       if (output >= 0) differs[std::size_t(output)] = true;
   }

@@ -15,10 +15,11 @@ namespace posevote::ablation {
 class Replay {
  public:
   /// Runs all nodes that the plan's result depends on, or `stream`, a number in the plan.
-  /// `constants`: from fold_constants; `inputs`: in the plan's order. Keeps a reference to the plan.
-  /// Throws what a node throws.
+  /// `constants`: from fold_constants; `inputs`: in the plan's order; `context`: what the nodes know
+  /// of the frame. Keeps a reference to the plan. Throws what a node throws.
   Replay(const graph::Plan& plan, const graph::Constants& constants,
-         const std::vector<graph::Value>& inputs, std::optional<int> stream = std::nullopt);
+         const std::vector<graph::Value>& inputs, graph::FrameContext context = {},
+         std::optional<int> stream = std::nullopt);
 
   /// The result if the node of that name were this one. It and those behind it read these values
   /// `instead`, by stream; other nodes are not run again for them.
@@ -30,6 +31,7 @@ class Replay {
 
  private:
   const graph::Plan& plan_;
+  graph::FrameContext context_;
   std::vector<bool> needed_;          ///< per node: the result depends on it
   std::vector<graph::Value> values_;  ///< per stream
 };

@@ -56,7 +56,7 @@ ShownVotes votes_of(const Configuration& configuration, const graph::Constants& 
                     const SceneFile& scene, int obj_id, std::size_t most) {
   const graph::Plan& plan = configuration.scenes;
   const graph::PlannedNode& node = density_node(plan);
-  const ablation::Replay scan(plan, constants, {std::make_shared<const SceneFile>(scene)},
+  const ablation::Replay scan(plan, constants, {std::make_shared<const SceneFile>(scene)}, {},
                               node.outputs[0]);
   const auto stream = [&](int number) {
     return scan.value(plan.streams[std::size_t(number)].name);

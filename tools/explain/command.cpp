@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explain/command.hpp"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "nodes/formats/file_bytes.hpp"
+#include "nodes/formats/sensor_pose.hpp"
+#include "nodes/layouts/ground_truth.hpp"
+#include "pipelines/inputs.hpp"
+#include "tools/explain/picture.hpp"
+#include "tools/explain/sentences.hpp"
+#include "tools/explain/to_json.hpp"
+
+namespace posevote {
+namespace {
+
+using explain::Explanation;
+
+Eigen::Isometry3d read_pose(const std::string& file) {
+  try {
+    const std::vector<double> numbers = formats::read_pose_numbers(formats::read_file(file).view());
+    if (numbers.size() != 16) throw std::runtime_error("expected 16 numbers, a matrix row by row");
+    return formats::sensor_pose(numbers);
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();
+    throw std::invalid_argument(what.starts_with(file) ? what : file + ": " + what);
+  }
+}
+
+void read_truth(const ExplainCommand& command, const explain::Run& run,
+                const explain::FrameOfRun& frame, explain::Request& request) {
+  if (!command.truth.empty()) {
+    if (command.object.empty())
+      throw std::invalid_argument("--truth " + command.truth + ": say of which --object");
+    for (const auto& model : run.library->models)
+      if (model->name == command.object || std::to_string(model->obj_id) == command.object)
+        request.truth[model->obj_id].push_back(read_pose(command.truth));
+  }
+  if (command.dataset.empty()) return;
+  const layouts::GroundTruth truth = as_arguments(
+      [&] { return layouts::read_ground_truth(command.dataset, run.inputs.split, "none"); });
+  const SceneFile file = explain::scene_file(run, frame);
+  for (const layouts::TrueInstance& one : truth.instances)
+    if (one.scene_id == file.scene_id && one.im_id == file.im_id)
+      request.truth[one.obj_id].push_back(one.T_scene_model);
+}
+
+std::string only_scene(const ExplainCommand& command, const explain::Run& run) {
+  if (!command.scene.empty()) return command.scene;
+  if (run.frames.size() == 1) return run.frames.front().name;
+  throw std::invalid_argument(command.out + ": the run has " + std::to_string(run.frames.size()) +
+                              " scans; say --scene NAME, as " + run.frames.front().name);
+}
+
+}  // namespace
+
+int explain_command(const ExplainCommand& command) {
+  const explain::Run run = explain::open_run(command.out, command.models, command.dataset);
+  const std::string scene = only_scene(command, run);
+  explain::Request request;
+  request.object = command.object;
+  request.attempt = command.attempt;
+  read_truth(command, run, explain::find_frame(run.frames, scene, run.out), request);
+  const Explanation explanation = explain::explain(run, scene, request);
+  if (!command.picture.empty()) {
+    if (!explanation.cloud)
+      throw std::invalid_argument("--picture " + command.picture + ": the scan has failed");
+    explain::draw(explanation, run, command.picture);
+  }
+  if (command.json)
+    std::printf("%s\n", explain::to_json(explanation)
+                            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
+                            .c_str());
+  else
+    std::printf("%s", explain::to_text(explanation).c_str());
+  return 0;
+}
+
+}  // namespace posevote

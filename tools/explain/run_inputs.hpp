@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run was told beside its config, from its folder: which models, which scans, which seed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace posevote::explain {
+
+/// Paths from wherever the program stands.
+struct RunInputs {
+  std::vector<std::string> models;
+  std::string dataset, split = "test";
+  std::string library, cache;
+  std::string folder;  ///< where the run was started: the scans' paths are from there
+  std::uint64_t seed = 0;
+};
+
+/// Of its last start; nothing but the seed where run.json is not there, of an older posevote.
+RunInputs read_inputs(const std::filesystem::path& out);
+
+/// The frame of a run by its name, file, number, or SCENE/IMAGE of a data set.
+struct FrameOfRun {
+  std::size_t number = 0;
+  std::string name;
+  std::filesystem::path file;
+  int scene_id = 0, im_id = 0;
+  std::string failed_node, failure;  ///< of one that has no answer
+};
+
+/// All frames of a run, answered or failed. Throws std::invalid_argument where the folder holds no
+/// run.
+std::vector<FrameOfRun> read_run_frames(const std::filesystem::path& out);
+
+/// Throws std::invalid_argument where none or several are meant, with the nearest name.
+const FrameOfRun& find_frame(const std::vector<FrameOfRun>& frames, const std::string& scene,
+                             const std::filesystem::path& out);
+
+}  // namespace posevote::explain

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explain/standing.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "nodes/density/pose_index.hpp"
+#include "nodes/density/refine_mode.hpp"
+#include "nodes/poses/confidence.hpp"
+#include "nodes/poses/explain_points.hpp"
+#include "nodes/poses/refinement.hpp"
+#include "nodes/poses/score.hpp"
+#include "nodes/poses/separation.hpp"
+
+namespace posevote::explain {
+namespace {
+
+double share(std::size_t part, std::size_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+std::size_t count(const std::vector<char>& flags) {
+  return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), char(1)));
+}
+
+/// Shares of the points that turn to the sensor, which all lie beside the image or not.
+double share_outside(const Model& model, const poses::ScanState& scan,
+                     const Eigen::Isometry3d& T_scene_model) {
+  std::size_t facing = 0, outside = 0;
+  for (Eigen::Index i = 0; i < model.cloud.points.rows(); ++i) {
+    const auto p = geometry::posed_point(model.cloud, i, T_scene_model.cast<float>());
+    if (!scan.surface.faces_sensor(p)) continue;
+    ++facing;
+    outside += scan.view.is_outside(p.point);
+  }
+  return share(outside, facing);
+}
+
+std::vector<char> rows_on(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                          const PointMatrix& points, const PointMatrix& normals, float distance) {
+  const geometry::PointGrid grid(model.cloud.points, distance);
+  return poses::explain_points(model.cloud, grid, T_scene_model, points, normals, distance);
+}
+
+Seen look(const poses::Sought& sought, const Eigen::Isometry3d& T_scene_model) {
+  const poses::Fit fit = poses::measure(sought, T_scene_model, 0);
+  Seen seen;
+  seen.supported = share(fit.supported, fit.facing);
+  seen.contradicted = share(fit.contradicted, fit.facing);
+  seen.mismatched = share(fit.mismatched, fit.facing);
+  seen.unmeasured = share(fit.unseen, fit.facing);
+  seen.outside = share_outside(sought.model, sought.scan, T_scene_model);
+  seen.hidden = std::max(0.0, share(fit.hidden, fit.facing) - seen.outside);
+  seen.scan_points = count(rows_on(sought.model, T_scene_model, sought.scan.cloud.points,
+                                   sought.scan.cloud.normals, sought.params.tolerance));
+  return seen;
+}
+
+/// By the votes of one of the poses that look alike.
+struct Around {
+  double density = 0;
+  std::size_t agreeing = 0, pairs = 0;
+};
+
+Around votes_around(const segment::LiveVotes& object, const Eigen::Isometry3d& T_scene_model) {
+  const VoteSet& votes = *object.votes;
+  Around around;
+  if (!object.raw->index) return around;
+  const Hypothesis at = hypothesis_of(T_scene_model, votes.model->center, 0);
+  std::set<std::uint32_t> agreeing;
+  for (const auto& [vote, weight] : object.raw->index->neighbours(at.center, at.rotation)) {
+    around.density += static_cast<double>(weight);
+    if (vote < votes.circle_votes())
+      agreeing.insert(vote / votes.votes_per_correspondence);
+    else
+      ++around.pairs;
+  }
+  around.agreeing = agreeing.size();
+  return around;
+}
+
+/// The scan as the instances that were found left it; those that were doubtful took points, too.
+void take_out_found(const SearchWatch& search, const Taps& taps, const poses::SegmentParams& params,
+                    poses::ScanState& scan) {
+  const auto take = [&](const poses::Instance& one) {
+    const Model& model = taps.votes[one.object].model->at(scan.resolution);
+    const poses::InstanceParams rules = poses::instance_params(params, model, scan.resolution);
+    const bool counts = one.candidate.confidence >= params.min_confidence;
+    const bool took =
+        one.candidate.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
+        one.candidate.score() >= params.min_score;
+    if (!counts && !took) return;
+    scan.take_out(model, one.candidate.T_scene_model, rules.explained_distance);
+    if (counts)
+      scan.usual_residual.add(one.candidate.fit, scan.range_of(model, one.candidate.T_scene_model));
+  };
+  for (const poses::Instance& one : search.instances().found) take(one);
+  for (const poses::Instance& one : search.instances().rejected) take(one);
+}
+
+}  // namespace
+
+Bench::Bench(const Taps& of, const SearchWatch& watched)
+    : taps(of),
+      search(watched),
+      params(of.run.segmentation()),
+      whole(*of.cloud, *of.features, of.scale.resolution, params.terms),
+      left(*of.cloud, *of.features, of.scale.resolution, params.terms) {
+  for (std::size_t i = 0; i < taps.votes.size(); ++i)
+    objects.push_back(segment::all_votes(taps.votes[i], taps.densities[i]));
+  take_out_found(search, taps, params, left);
+}
+
+void Bench::count_features(std::size_t object, const poses::Sought& sought,
+                           Standing& standing) const {
+  const std::vector<char> on = rows_on(sought.model, standing.T_scene_model, taps.features->points,
+                                       taps.features->normals, sought.params.tolerance);
+  for (const Octave& rows : sought.voters)
+    standing.features += static_cast<std::size_t>(
+        std::count(on.begin() + rows.begin, on.begin() + rows.end, char(1)));
+  for (std::size_t i = 0; i < taps.correspondences.size(); ++i) {
+    const Correspondences& matches = taps.correspondences[i];
+    const auto matched = static_cast<std::size_t>(
+        std::count_if(matches.scene_feature.begin(), matches.scene_feature.end(),
+                      [&](std::uint32_t row) { return on[row] != 0; }));
+    if (i == object) {
+      standing.matched = matched;
+    } else if (matched > standing.matched_other) {
+      standing.matched_other = matched;
+      standing.other = matches.model->name;
+    }
+  }
+}
+
+void Bench::count_votes(std::size_t object, const Alike& alike, Standing& standing) const {
+  const segment::LiveVotes& votes = objects[object];
+  for (const Eigen::Isometry3d& pose : alike.poses()) {
+    const Around around = votes_around(votes, pose);
+    if (around.density < standing.density) continue;
+    standing.density = around.density;
+    standing.agreeing = around.agreeing;
+    standing.pairs = around.pairs;
+  }
+  const std::vector<Hypothesis> modes = segment::modes_of(votes);
+  if (!modes.empty()) standing.highest = modes.front().support;
+  const auto near = std::find_if(modes.begin(), modes.end(),
+                                 [&](const Hypothesis& mode) { return alike.is_near(mode); });
+  if (near != modes.end()) standing.density = std::max(standing.density, near->support);
+}
+
+Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Standing& standing,
+                    Eigen::Isometry3d& T_refined) const {
+  poses::Sought sought = segment::sought_for(objects[object], scan, params);
+  sought.most_support = std::max(standing.highest, poses::kSomeSupport);
+  poses::Candidate candidate;
+  poses::propose_as(sought,
+                    hypothesis_of(standing.T_scene_model, sought.model.center, standing.density),
+                    candidate);
+  candidate.elsewhere = poses::support_elsewhere(segment::modes_of(objects[object]),
+                                                 candidate.proposed.center, sought.model);
+  poses::refine(sought, candidate);
+  poses::polish(sought, candidate);
+  T_refined = candidate.T_scene_model;
+  Judged judged;
+  judged.confidence = candidate.confidence;
+  judged.score = candidate.score();
+  judged.clues = candidate.clues;
+  judged.against = poses::against(candidate.clues, params.terms.confidence);
+  if (!(candidate.quality > 0)) return judged;
+  const poses::FitShares shares = poses::shares_of(candidate.fit, params.terms.fit);
+  judged.agreement = shares.agreement;
+  judged.relief = candidate.fit.relief;
+  judged.outline = shares.outline;
+  judged.rmse = candidate.fit.rmse;
+  judged.votes_per_feature = poses::votes_per_feature(sought, candidate);
+  return judged;
+}
+
+void Bench::compare_found(std::size_t object, const Alike& alike, const poses::Sought& sought,
+                          Standing& standing) const {
+  const Model& model = sought.model;
+  const std::vector<char> on = rows_on(model, standing.T_scene_model, taps.cloud->points,
+                                       taps.cloud->normals, sought.params.tolerance);
+  std::vector<char> gone(on.size(), 0);
+  std::size_t most = 0;
+  for (const poses::Instance& one : search.instances().found) {
+    const Model& other = taps.votes[one.object].model->at(whole.resolution);
+    if (one.object == object) {
+      const double off = alike.distance(one.candidate.T_scene_model);
+      standing.near_same = std::min(standing.near_same.value_or(off), off);
+    }
+    if (one.object == object && alike.is_near(one.candidate.T_scene_model)) continue;
+    const auto reach = poses::instance_params(params, other, whole.resolution).explained_distance;
+    std::vector<char> took =
+        rows_on(other, one.candidate.T_scene_model, taps.cloud->points, taps.cloud->normals, reach);
+    for (std::size_t i = 0; i < took.size(); ++i) {
+      took[i] = static_cast<char>(took[i] & on[i]);
+      gone[i] = static_cast<char>(gone[i] | took[i]);
+    }
+    if (count(took) <= most) continue;
+    most = count(took);
+    standing.taker = other.name;
+  }
+  standing.taken = share(count(gone), count(on));
+}
+
+Standing Bench::stand(std::size_t object, const Eigen::Isometry3d& T_scene_model) const {
+  const poses::Sought sought = segment::sought_for(objects[object], whole, params);
+  const Alike alike(*objects[object].votes->model, T_scene_model);
+  Standing standing;
+  standing.T_scene_model = T_scene_model;
+  standing.range = whole.range_of(sought.model, T_scene_model);
+  standing.seen = look(sought, T_scene_model);
+  count_features(object, sought, standing);
+  count_votes(object, alike, standing);
+  standing.way = way_of(search.steps(object), alike);
+  if (!standing.way.empty()) {
+    standing.rank = standing.way.front().place;
+    standing.peaks = standing.way.front().of;
+  }
+  standing.judged = judge(object, whole, standing, standing.T_refined);
+  Eigen::Isometry3d T_left;
+  standing.left = judge(object, left, standing, T_left);
+  standing.moved = alike.distance(standing.T_refined);
+  standing.turned = alike.turn(standing.T_refined);
+  standing.stayed = alike.is_near(standing.T_refined);
+  compare_found(object, alike, sought, standing);
+  return standing;
+}
+
+}  // namespace posevote::explain

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explain/verdict.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace posevote::explain {
+namespace {
+
+// Where figures fall short. Round numbers, chosen by hand and held against misses of real and
+// simulated sets; they decide what a miss is called and nothing else.
+constexpr double kHardlySeen = 0.15;      // of the points that face the sensor, on the scan
+constexpr double kMostlyHidden = 0.55;    // of them, that say nothing
+constexpr std::size_t kFewFeatures = 15;  // on the pose
+constexpr double kFewMatched = 0.04;      // of these
+constexpr std::size_t kFewAgreeing = 5;   // correspondences and pairs that vote for the pose
+constexpr double kLikely = 0.1;           // confidence from which a candidate may be the object
+constexpr double kMuchTaken = 0.3;        // of its points, by others
+constexpr double kOddSize = 30;           // x other objects
+constexpr double kTooLarge = 3;           // x scan
+
+/// Whether the pose was refined, and so judged, in the search.
+bool was_judged(const Standing& at) {
+  return std::any_of(at.way.begin(), at.way.end(),
+                     [](const Place& place) { return place.step == "refine" && place.place > 0; });
+}
+
+std::string step_that_lost(const Standing& at) {
+  return at.way.empty() || at.way.back().place > 0 ? "" : at.way.back().step;
+}
+
+std::string worst_clue(const Judged& judged) {
+  const auto worst = std::max_element(judged.against.begin(), judged.against.end());
+  return kClueNames[std::size_t(worst - judged.against.begin())];
+}
+
+/// Of what says nothing for the pose or against it, the most.
+std::string why_unseen(const Seen& seen) {
+  if (seen.hidden >= std::max(seen.outside, seen.unmeasured)) return "hidden";
+  return seen.outside >= seen.unmeasured ? "outside" : "unmeasured";
+}
+
+bool is_unseen(const Seen& seen) {
+  return seen.supported < kHardlySeen &&
+         seen.hidden + seen.outside + seen.unmeasured > kMostlyHidden;
+}
+
+bool has_odd_size(const Case& of) {
+  if (of.scan_size > 0 && of.diagonal > kTooLarge * of.scan_size) return true;
+  return of.usual_size > 0 &&
+         (of.diagonal > kOddSize * of.usual_size || kOddSize * of.diagonal < of.usual_size);
+}
+
+/// Of a pose that was judged, or would have been sure enough.
+Verdict judge_refused(const Case& of, const Standing& at) {
+  if (at.near_same && *at.near_same < of.nms_radius) return {Cause::kTooNear, "", ""};
+  if (at.judged.confidence >= of.min_confidence && at.left.confidence < of.min_confidence &&
+      at.taken > kMuchTaken)
+    return {Cause::kTaken, at.taker, ""};
+  return {Cause::kRefused, worst_clue(deciding(at, of)), ""};
+}
+
+/// What was refined near it was refused, though it would do itself.
+bool was_missed_narrowly(const Case& of, const Standing& at) {
+  return std::min(at.judged.confidence, at.left.confidence) >= of.min_confidence;
+}
+
+/// Before anybody looked at the pose: which stage gave too little.
+std::optional<Verdict> judge_proposal(const Standing& at) {
+  if (at.features < kFewFeatures) return Verdict{Cause::kFewFeatures, "", ""};
+  if (at.agreeing + at.pairs >= kFewAgreeing) return std::nullopt;
+  if (static_cast<double>(at.matched) < kFewMatched * static_cast<double>(at.features))
+    return Verdict{Cause::kNotMatched, at.other, ""};
+  return Verdict{Cause::kDisagree, "", ""};
+}
+
+Verdict judge_true(const Case& of, const Standing& at) {
+  if (is_unseen(at.seen)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
+  if (was_judged(at) && was_missed_narrowly(of, at)) return {Cause::kMoved, "", ""};
+  if (was_judged(at)) return judge_refused(of, at);
+  if (const auto early = judge_proposal(at)) return *early;
+  if (!at.stayed) return {Cause::kMoved, "", ""};
+  if (at.judged.confidence >= of.min_confidence && at.taken <= kMuchTaken)
+    return {Cause::kOutranked, step_that_lost(at), ""};
+  return judge_refused(of, at);
+}
+
+Verdict judge_candidate(const Case& of, const Standing& at) {
+  if (at.left.confidence >= of.min_confidence) return {Cause::kOutranked, step_that_lost(at), ""};
+  const Verdict refused = judge_refused(of, at);
+  // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
+  const double confidence = (at.taken > kMuchTaken ? at.left : at.judged).confidence;
+  if (refused.cause != Cause::kRefused || confidence >= kLikely) return refused;
+  return {Cause::kNoTrace, worst_clue(at.judged), ""};
+}
+
+}  // namespace
+
+const Judged& deciding(const Standing& at, const Case& of) {
+  const bool is_by_rest = at.judged.confidence >= of.min_confidence && at.left.score > 0;
+  return is_by_rest ? at.left : at.judged;
+}
+
+const char* name_of(Cause cause) {
+  constexpr std::array<const char*, 15> kNames{
+      "found",     "scan failed",  "model left out", "unit",
+      "not seen",  "few features", "not matched",    "matches do not agree",
+      "outranked", "moved by ICP", "points taken",   "too near to another",
+      "refused",   "no trace",     "absent"};
+  return kNames.at(static_cast<std::size_t>(cause));
+}
+
+Verdict judge_case(const Case& of) {
+  if (of.is_found) return {Cause::kFound, "", ""};
+  if (of.is_absent) return {Cause::kAbsent, "", ""};
+  if (has_odd_size(of)) return {Cause::kUnit, "", ""};
+  if (!of.pose) return {of.matches == 0 ? Cause::kNotMatched : Cause::kNoTrace, "", ""};
+  return of.is_true ? judge_true(of, *of.pose) : judge_candidate(of, *of.pose);
+}
+
+}  // namespace posevote::explain
