@@ -117,12 +117,19 @@ std::array<double, 3> to_array(const Eigen::Vector3f& v) {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
 
+std::array<double, 36> to_array(const Eigen::Matrix<double, 6, 6>& matrix) {
+  std::array<double, 36> rows{};
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(rows.data()) = matrix;
+  return rows;
+}
+
 FoundObject to_found(const Detection& detection) {
   FoundObject found;
   found.name = detection.model;
   found.obj_id = detection.obj_id;
   found.confidence = detection.confidence;
   found.T_scene_model = to_matrix(detection.T_scene_model);
+  if (detection.covariance) found.covariance = to_array(*detection.covariance);
   const Symmetries& symmetries = detection.symmetries;
   const Eigen::Vector3d fixed = symmetries.fixed_point.cast<double>();
   for (const Eigen::Quaternionf& turn : symmetries.turns)
@@ -133,6 +140,7 @@ FoundObject to_found(const Detection& detection) {
   found.axis_point = to_array(symmetries.fixed_point);
   found.inlier_share = detection.inlier_fraction;
   found.rms = detection.rmse;
+  found.seconds = detection.seconds;
   return found;
 }
 

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,10 @@ struct FoundObject {
   int obj_id = 0;
   double confidence = 0;    ///< in [0, 1]: the probability that it is right
   Matrix4 T_scene_model{};  ///< [m]
+  /// 6 x 6, row by row, of the pose error xi: T_true = T_scene_model exp(xi), where xi is a twist in
+  /// the model's frame, about its origin: a rotation vector [rad], then a translation [m]. What
+  /// nothing holds, as the turn of a can, has a large variance. Empty where the pose was not refined.
+  std::optional<std::array<double, 36>> covariance;
   /// Turns about the model's own frame after which it looks the same; the pose times any of them
   /// is as good. The identity is first.
   std::vector<Matrix4> symmetries;
@@ -93,6 +98,7 @@ struct FoundObject {
   std::array<double, 3> axis_point{};  ///< [m]
   double inlier_share = 0;  ///< of the model points that face the sensor, those on scene points
   double rms = 0;           ///< of the inliers' distance to the scan's surface [m]
+  double seconds = 0;       ///< spent on the search for it, since the object's instance before
 };
 
 /// The answer to one scan.

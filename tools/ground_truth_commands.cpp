@@ -4,6 +4,7 @@
 
 #include "tools/commands.hpp"
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/results_json.hpp"
 #include "tools/evaluate/write_evaluation.hpp"
 #include "tools/simulate/simulate.hpp"
 
@@ -26,7 +27,7 @@ int evaluate_command(const EvaluateCommand& command) {
   choose_rules(options.rules);  // a typing mistake shows before the data set is read
   const layouts::GroundTruth truth =
       layouts::read_ground_truth(command.dataset, command.split, command.targets);
-  const Evaluation evaluation = evaluate(truth, read_results_csv(command.results), options);
+  const Evaluation evaluation = evaluate(truth, read_results(command.results), options);
   std::cout << to_text(evaluation, command.verbose || evaluation.instances.size() <= kMostLines);
   if (!command.out.empty()) {
     write_evaluation(evaluation, command.out);

@@ -2,10 +2,10 @@
 // `posevote run`: a config, models and scans in; poses out.
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -105,17 +105,20 @@ std::map<std::size_t, fs::path> files_of(const std::vector<SceneEntry>& scenes) 
   return files;
 }
 
-bool writes_results(const Configuration& configuration) {
-  const auto& nodes = configuration.scenes.nodes;
-  return std::any_of(nodes.begin(), nodes.end(), [](const graph::PlannedNode& node) {
-    return node.spec->name == "write_results";
-  });
+/// The formats of write_results; empty-handed where the pipeline has no such node.
+std::optional<std::vector<std::string>> result_formats(const Configuration& configuration) {
+  for (const graph::PlannedNode& node : configuration.scenes.nodes)
+    if (node.spec->name == "write_results")
+      for (const graph::ParamSpec& param : node.spec->params)
+        if (param.name == "format") return graph::split_list(param.get(node.params.get()));
+  return std::nullopt;
 }
 
 /// Takes away what a run writes, and nothing else that may lie there.
 void remove_earlier_run(const fs::path& out) {
-  for (const char* file : {"results.csv", "results.json", "failures.json", "effective.yaml",
-                           "trace.json", "run.json", "pictures", "overlays", "correspondences"})
+  for (const char* file :
+       {"results.csv", "results.json", "detections.csv", "failures.json", "effective.yaml",
+        "trace.json", "run.json", "pictures", "overlays", "correspondences"})
     fs::remove_all(out / file);
 }
 
@@ -123,13 +126,14 @@ void remove_earlier_run(const fs::path& out) {
 void begin_run(const RunCommand& command, const Configuration& configuration,
                const ModelLibrary& library, std::vector<SceneEntry>& scenes) {
   if (command.overwrite) remove_earlier_run(command.out);
-  if (!writes_results(configuration)) {
-    spdlog::warn("{}: no write_results in the pipeline: no results.csv is written",
+  const auto formats = result_formats(configuration);
+  if (!formats) {
+    spdlog::warn("{}: no write_results in the pipeline: no results are written",
                  configuration.pipeline);
     return fs::create_directories(command.out), void();
   }
-  const std::set<std::size_t> answered =
-      formats::begin_results(command.out, command.resume, files_of(scenes), library.left_out);
+  const std::set<std::size_t> answered = formats::begin_results(
+      command.out, command.resume, files_of(scenes), library.left_out, *formats);
   std::erase_if(scenes, [&](const SceneEntry& scene) { return answered.contains(scene.number); });
   if (!answered.empty()) spdlog::info("{} frames are answered already", answered.size());
 }

@@ -4,10 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
-#include "graph/parallel.hpp"
+#include "nodes/geometry/icp_pairs.hpp"
 
 namespace posevote::geometry {
 namespace {
@@ -15,70 +14,33 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// A posed model point on its scan point's tangent plane.
-struct Pair {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of the scan
-  double residual = 0;                               // signed distance to the plane [m]
-  double weight = 0;                                 // 0: no partner
-};
-
-Pair find_partner(const OrientedPoint& p, const ScanSurface& scan, float distance) {
-  Pair pair;
-  if (!scan.faces_sensor(p)) return pair;
-  const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, distance);
-  if (!partner) return pair;
-  const Eigen::Vector3f offset = p.point - partner->point;
-  const float inside = 1 - offset.squaredNorm() / (distance * distance);
-  pair.point = p.point.cast<double>();
-  pair.normal = partner->normal.cast<double>();
-  pair.residual = static_cast<double>(offset.dot(partner->normal));
-  pair.weight = static_cast<double>(inside > 0 ? inside * inside : 0);
-  return pair;
-}
-
-/// The model is sampled with a fixed stride: voxel order runs through space, so that is even.
-std::vector<Pair> find_pairs(const Cloud& model, const ScanSurface& scan,
-                             const Eigen::Isometry3f& T_scene_model, float distance,
-                             Eigen::Index most) {
-  const Eigen::Index stride = model.points.rows() / most + 1;
-  const auto samples = static_cast<std::size_t>((model.points.rows() + stride - 1) / stride);
-  std::vector<Pair> pairs(samples);
-  graph::parallel_for(samples, 256, [&](std::size_t i) {
-    const OrientedPoint p =
-        posed_point(model, static_cast<Eigen::Index>(i) * stride, T_scene_model);
-    pairs[i] = find_partner(p, scan, distance);
-  });
-  std::erase_if(pairs, [](const Pair& pair) { return !(pair.weight > 0); });
-  return pairs;
-}
-
 /// Where the step turns about, and the lever that makes radians and metres alike.
 struct Pivot {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double lever = 0;
 };
 
-Pivot find_pivot(const std::vector<Pair>& pairs) {
+Pivot find_pivot(const std::vector<IcpPair>& pairs) {
   Pivot pivot;
   double weight = 0;
-  for (const Pair& pair : pairs) {
+  for (const IcpPair& pair : pairs) {
     pivot.center += pair.weight * pair.point;
     weight += pair.weight;
   }
   pivot.center /= weight;
   double squared = 0;
-  for (const Pair& pair : pairs) squared += pair.weight * (pair.point - pivot.center).squaredNorm();
+  for (const IcpPair& pair : pairs)
+    squared += pair.weight * (pair.point - pivot.center).squaredNorm();
   pivot.lever = std::sqrt(squared / weight);
   return pivot;
 }
 
 /// (lever x turn, shift) that brings the points closer to the planes.
-Vector6d solve_step(const std::vector<Pair>& pairs, const Pivot& pivot, double damping) {
+Vector6d solve_step(const std::vector<IcpPair>& pairs, const Pivot& pivot, double damping) {
   Matrix6d normal_matrix = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weight = 0;
-  for (const Pair& pair : pairs) {
+  for (const IcpPair& pair : pairs) {
     Vector6d row;
     row << (pair.point - pivot.center).cross(pair.normal) / pivot.lever, pair.normal;
     normal_matrix += pair.weight * row * row.transpose();
@@ -119,8 +81,8 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
-    const std::vector<Pair> pairs = find_pairs(model, scan, T_scene_model.cast<float>(),
-                                               static_cast<float>(distance), params.samples);
+    const std::vector<IcpPair> pairs = find_icp_pairs(model, scan, T_scene_model.cast<float>(),
+                                                      static_cast<float>(distance), params.samples);
     if (pairs.size() < static_cast<std::size_t>(terms.fewest_pairs)) break;
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) break;

@@ -13,10 +13,12 @@
 //            what min_confidence asks for, and who goes first among the poses of all objects
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "nodes/data/clues.hpp"
 #include "nodes/data/hypotheses.hpp"
+#include "nodes/geometry/twist.hpp"
 #include "nodes/poses/measure_fit.hpp"
 
 namespace posevote::poses {
@@ -33,8 +35,10 @@ struct Candidate {
   double consensus = 1;  ///< in [0, 1], of votes, for the best of a search
   Clues clues{};         ///< of refined poses, as is the next
   double confidence = 0;
-  bool is_refined = false;        ///< by all steps of ICP
-  std::size_t near_symmetry = 0;  ///< for twins: which of the model's made them
+  bool is_refined = false;                         ///< by all steps of ICP
+  std::optional<geometry::Matrix6d> covariance{};  ///< of what may be a detection
+  double seconds = 0;                              ///< that its search took (object_search.hpp)
+  std::size_t near_symmetry = 0;                   ///< for twins: which of the model's made them
   double score() const { return quality * consensus; }
 };
 

@@ -1,41 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/object_search.hpp"
 
+#include <chrono>
 #include <utility>
 
+#include "nodes/poses/pose_covariance.hpp"
 #include "nodes/poses/refinement.hpp"
 #include "nodes/poses/score.hpp"
 #include "nodes/poses/twins.hpp"
 
 namespace posevote::poses {
+namespace {
+
+/// Adds the time of its life to `sum` [s].
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
 
 ObjectSearch::ObjectSearch(const Sought& sought, Proposals proposals)
     : sought_(sought), proposals_(std::move(proposals)), taken_(sought.params.nms_radius) {}
 
 void ObjectSearch::propose() {
-  pool_ = collect(sought_, proposals_.propose(), taken_);
-  show("propose", pool_);
-  make_shortlist(sought_, pool_);
-  show("glance", pool_);
-  sketch(sought_, pool_, proposals_.improve);
-  show("sketch", pool_);
-  leave_out_likes(sought_, pool_);
-  show("leave out likes", pool_);
-  bring_closer(sought_, pool_);
-  show("bring closer", pool_);
+  {
+    const Stopwatch watch(seconds_);
+    pool_ = collect(sought_, proposals_.propose(), taken_);
+    show("propose", pool_);
+    make_shortlist(sought_, pool_);
+    show("glance", pool_);
+    sketch(sought_, pool_, proposals_.improve);
+    show("sketch", pool_);
+    leave_out_likes(sought_, pool_);
+    show("leave out likes", pool_);
+    bring_closer(sought_, pool_);
+    show("bring closer", pool_);
+  }
   proposed_at_ = sought_.scan.takes;
   choose();
 }
 
 void ObjectSearch::choose() {
+  const std::size_t before = refused_.size();
+  {
+    const Stopwatch watch(seconds_);
+    choose_best();
+  }
+  if (best_) best_->seconds = seconds_;
+  if (refused_.size() > before) refused_.back().seconds = seconds_;
+}
+
+void ObjectSearch::choose_best() {
   chosen_at_ = sought_.scan.takes;
   bring_finalists_forward(sought_, pool_);
   show("look", pool_);
   best_ = best_finalist();
-  if (best_) show("choose", {*best_});
-  if (best_ && is_convincing(sought_, *best_)) {
-    polish(sought_, *best_);
-    if (is_convincing(sought_, *best_) && taken_.is_clear(sought_.model, best_->T_scene_model))
+  if (best_) {
+    show("choose", {*best_});
+    const bool is_promising = is_convincing(sought_, *best_);
+    if (is_promising) polish(sought_, *best_);
+    best_->covariance = pose_covariance(sought_, best_->T_scene_model);
+    if (is_promising && is_convincing(sought_, *best_) &&
+        taken_.is_clear(sought_.model, best_->T_scene_model))
       return;
   }
   if (best_ && taken_.is_clear(sought_.model, best_->T_scene_model)) refused_.push_back(*best_);
@@ -78,6 +113,7 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
 void ObjectSearch::accept() {
   taken_.take(sought_.model, *best_);
   ++accepted_;
+  seconds_ = 0;
   best_.reset();
   std::erase_if(pool_, [this](const Candidate& other) {
     return is_full() || !taken_.is_clear(other.proposed.center);

@@ -27,7 +27,8 @@ class ObjectSearch {
 
   const Model& model() const { return sought_.model; }
   const InstanceParams& params() const { return sought_.params; }
-  /// The best pose when last asked for; none where all were below the threshold.
+  /// The best pose when last asked for; none where all were below the threshold. Its `seconds`: how
+  /// long this search has worked since its instance before.
   const std::optional<Candidate>& best() const { return best_; }
   /// The best poses of those that were looked at closely and missed a threshold; one for each choice
   /// that came to nothing.
@@ -53,6 +54,7 @@ class ObjectSearch {
   void show(const char* step, const Candidates& candidates) const {
     if (sought_.watch) sought_.watch(step, candidates);
   }
+  void choose_best();
   std::optional<Candidate> best_finalist();
   std::optional<Candidate> best_of(Candidates::const_iterator begin,
                                    Candidates::const_iterator end) const;
@@ -65,6 +67,7 @@ class ObjectSearch {
   TakenPlaces taken_;
   int accepted_ = 0;
   int proposed_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then
+  double seconds_ = 0;                     ///< of work since the last instance
 };
 
 }  // namespace posevote::poses

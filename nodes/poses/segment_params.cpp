@@ -66,6 +66,8 @@ Detection make_detection(const Model& model, const Candidate& candidate,
   detection.inlier_fraction = candidate.fit.inlier_fraction;
   detection.rmse = candidate.fit.rmse;
   detection.T_scene_model = candidate.T_scene_model;
+  detection.covariance = candidate.covariance;
+  detection.seconds = candidate.seconds;
   detection.symmetries = model.symmetries;
   return detection;
 }

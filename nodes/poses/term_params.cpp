@@ -161,6 +161,26 @@ void add_refinement(Node& node) {
        at_least(0));
 }
 
+void add_covariance(Node& node) {
+  using G = CovarianceTerms;
+  const Register<G> term{node, &Terms::covariance};
+  term(
+      "covariance_inflation", &G::inflation, "x variance",
+      "Of residuals, in the covariance: what patches do not tell of how alike they err. Fitted, so "
+      "that 95 of 100 true errors lie within the 95 % ellipsoid; changes nothing else.",
+      greater_than(0));
+  term("covariance_floor", &G::floor, "x residual",
+       "Standard deviation that remains however many points there are, in each direction.",
+       at_least(0));
+  term("covariance_patch", &G::patch, "x diagonal", "Edge of the patches that may err alike.",
+       in_range(0.001, 1));
+  term("covariance_any_turn", &G::any_turn, "rad",
+       "Standard deviation of a turn that nothing holds: that of any turn at all.",
+       greater_than(0));
+  term("covariance_any_shift", &G::any_shift, "x diagonal",
+       "Standard deviation of a shift that nothing holds.", greater_than(0));
+}
+
 void add_twins(Node& node) {
   const Register<TwinTerms> term{node, &Terms::twins};
   term("telling", &TwinTerms::telling, "standard deviations",
@@ -239,6 +259,7 @@ void add_terms(graph::Registration<SegmentParams>& node) {
   add_score(node);
   add_confidence(node);
   add_refinement(node);
+  add_covariance(node);
   add_twins(node);
   add_shift(node);
   add_surface(node);

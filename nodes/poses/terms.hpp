@@ -63,6 +63,15 @@ struct RefinementTerms {
   double full_still = 0.02, polish_still = 2e-3;
 };
 
+/// How far it may be off (pose_covariance.hpp). inflation and floor were fitted on simulated scans
+/// of eight objects, through five sensors at eight settings.
+struct CovarianceTerms {
+  double inflation = 2.5;
+  double floor = 0.08;
+  double patch = 0.125;
+  double any_turn = 1.8, any_shift = 0.5;
+};
+
 /// When one of two look-alikes leads (twins.hpp).
 struct TwinTerms {
   double telling = 2;
@@ -75,6 +84,7 @@ struct Terms {
   ScoreTerms score;
   ConfidenceTerms confidence;
   RefinementTerms refinement;
+  CovarianceTerms covariance;
   TwinTerms twins;
   density::ShiftTerms shift;
   geometry::IcpTerms icp;

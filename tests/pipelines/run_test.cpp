@@ -80,6 +80,9 @@ TEST_CASE("the same bytes at any number of threads and tokens", "[run]") {
   REQUIRE(w.run("one", w.scans_argument() + " --threads 1").status == 0);
   REQUIRE(w.run("four", w.scans_argument() + " --threads 4 --tokens 3").status == 0);
   CHECK(csv("one") == csv("four"));
+  CHECK(read_text(w.folder / "one/detections.csv") == read_text(w.folder / "four/detections.csv"));
+  for (std::size_t i = 0; i < frames("one").size(); ++i)  // covariances, too
+    CHECK(frames("one")[i]["detections"] == frames("four")[i]["detections"]);
   CHECK(csv("one").size() > 100);
 }
 

@@ -50,8 +50,13 @@ inline std::string csv(const std::string& out) {
                             std::regex(",[^,\n]*\n"), "\n");
 }
 
+/// Without the times of detections, which differ from run to run.
 inline nlohmann::json frames(const std::string& out) {
-  return read_json(world().folder / (out + "/results.json"))["frames"];
+  nlohmann::json frames = read_json(world().folder / (out + "/results.json"))["frames"];
+  for (nlohmann::json& frame : frames)
+    for (const char* list : {"detections", "rejected"})
+      for (nlohmann::json& detection : frame[list]) detection.erase("seconds");
+  return frames;
 }
 
 }  // namespace posevote::test

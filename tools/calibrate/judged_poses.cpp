@@ -6,6 +6,7 @@
 
 #include "nodes/formats/results_writer.hpp"
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/results_json.hpp"
 
 namespace posevote {
 namespace {
@@ -18,14 +19,8 @@ struct Found {
 };
 
 void add(const Json& frame, const Json& detection, Found& found) {
-  FoundInstance& pose = found.poses.emplace_back();
-  pose.line = static_cast<int>(found.poses.size());
-  pose.scene_id = frame.at("scene_id").get<int>();
-  pose.im_id = frame.at("im_id").get<int>();
-  pose.obj_id = detection.at("obj_id").get<int>();
-  pose.score = detection.at("confidence").get<double>();
-  for (int i = 0; i < 16; ++i)
-    pose.T_scene_model.matrix()(i / 4, i % 4) = detection.at("T_scene_model").at(i).get<double>();
+  found.poses.push_back(found_instance(frame, detection));
+  found.poses.back().line = static_cast<int>(found.poses.size());
   Clues& clues = found.clues.emplace_back();
   for (std::size_t i = 0; i < kClueCount; ++i)
     clues[i] = detection.at("clues").at(kClueNames[i]).get<double>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Verdict {
   double score = 0;
   bool correct = false;
   int line = 0;  ///< of the results file (FoundInstance::line)
+  /// Squared Mahalanobis distance of a right one's error; NaN: unknown (PoseMeter::surprise).
+  double surprise = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The counts where the detections from `score` up are taken.

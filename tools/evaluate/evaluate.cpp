@@ -141,6 +141,17 @@ double calibration_error(const RuleResult& result) {
   return calibration && calibration->count > 0 ? calibration->error : kUnknown;
 }
 
+Coverage coverage_of(const RuleResult& result) {
+  constexpr double k95 = 12.592;  // chi-square of six degrees of freedom
+  Coverage coverage;
+  for (const Verdict& verdict : result.verdicts) {
+    if (std::isnan(verdict.surprise)) continue;
+    ++coverage.known;
+    coverage.within += verdict.surprise <= k95;
+  }
+  return coverage;
+}
+
 Evaluation evaluate(const layouts::GroundTruth& truth, const std::vector<FoundInstance>& found,
                     const EvaluateOptions& options) {
   Evaluation evaluation;

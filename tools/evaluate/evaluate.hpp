@@ -67,6 +67,14 @@ struct Evaluation {
 /// probability or there are no detections.
 double calibration_error(const RuleResult& result);
 
+/// How far the covariances of right detections can be believed.
+struct Coverage {
+  int known = 0;   ///< right detections that have a covariance
+  int within = 0;  ///< of these, those whose true error lies within its 95 % ellipsoid
+  double share() const { return known > 0 ? static_cast<double>(within) / known : kUnknown; }
+};
+Coverage coverage_of(const RuleResult& result);
+
 /// For each image, object and condition, detections take in descending order of their score the
 /// nearest right instance that is still free; the others are false positives, but one that finds an
 /// instance that is not counted is neither. Of BOP's average recalls, as many detections are judged

@@ -48,6 +48,10 @@ class ImageMeter {
       for (std::size_t i = 0; i < group.instances.size(); ++i) {
         errors[k].push_back(
             pair(meter, group.instances[i]->T_scene_model, group.found[k]->T_scene_model));
+        if (group.found[k]->covariance)
+          errors[k].back().surprise =
+              meter.surprise(group.instances[i]->T_scene_model, group.found[k]->T_scene_model,
+                             *group.found[k]->covariance);
         if (!of_true.empty()) add_vsd(object, of_true[i], of_found[k], errors[k].back());
       }
     return errors;
@@ -130,12 +134,14 @@ void show_rest(const Case& group, const Errors& errors, std::vector<bool>& shown
 }
 
 /// A detection of an instance that is not counted is neither right nor wrong.
-std::vector<Verdict> verdicts(const Case& group, const std::vector<std::size_t>& matched) {
+std::vector<Verdict> verdicts(const Case& group, const Errors& errors,
+                              const std::vector<std::size_t>& matched) {
   std::vector<Verdict> list;
   for (std::size_t k = 0; k < matched.size(); ++k) {
     const bool correct = matched[k] != kNone;
     if (!correct || group.results[matched[k]]->counted)
-      list.push_back({group.found[k]->score, correct, group.found[k]->line});
+      list.push_back({group.found[k]->score, correct, group.found[k]->line,
+                      correct ? errors[k][matched[k]].surprise : kUnknown});
   }
   return list;
 }
@@ -157,7 +163,7 @@ std::vector<Verdict> apply(const Rule& rule, std::size_t place, const Case& grou
         group.results[matched[k]]->met[place] += 1 / static_cast<double>(rule.conditions.size());
     if (rule.average()) continue;
     show(group, errors, matched, shown);
-    list = verdicts(group, matched);
+    list = verdicts(group, errors, matched);
   }
   return list;
 }

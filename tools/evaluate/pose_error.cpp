@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/evaluate/pose_error.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
@@ -66,16 +67,32 @@ double farthest_in_image(const Eigen::Matrix3Xd& points, const Eigen::Isometry3d
   return std::sqrt(most);
 }
 
+constexpr double kStep = 0.02;  // of turns about an axis [rad]
+
+Eigen::Isometry3d turn_about(const layouts::SymmetryAxis& axis, double angle) {
+  return Eigen::Translation3d(axis.offset) * Eigen::AngleAxisd(angle, axis.direction) *
+         Eigen::Translation3d(-axis.offset);
+}
+
+/// The least of a measure that grows with the square of the turn from its least, where that lies
+/// within half a step of no turn; `here`: of no turn.
+template <class Measure>
+double least_between_steps(double here, const layouts::SymmetryAxis& axis, const Measure& measure) {
+  const double before = measure(turn_about(axis, -kStep / 2));
+  const double behind = measure(turn_about(axis, kStep / 2));
+  const double bend = before + behind - 2 * here;
+  if (!(bend > 0)) return std::min(before, behind);
+  const double angle = kStep / 4 * (before - behind) / bend;
+  return measure(turn_about(axis, std::clamp(angle, -kStep / 2, kStep / 2)));
+}
+
 }  // namespace
 
 std::vector<Eigen::Isometry3d> symmetry_steps(const layouts::TrueObject& object) {
   std::vector<Eigen::Isometry3d> turns{Eigen::Isometry3d::Identity()};
-  const int count = static_cast<int>(std::ceil(M_PI / 0.01));
+  const int count = static_cast<int>(std::ceil(2 * M_PI / kStep));
   for (const layouts::SymmetryAxis& axis : object.axes)
-    for (int i = 1; i < count; ++i)
-      turns.push_back(Eigen::Translation3d(axis.offset) *
-                      Eigen::AngleAxisd(2 * M_PI * i / count, axis.direction) *
-                      Eigen::Translation3d(-axis.offset));
+    for (int i = 1; i < count; ++i) turns.push_back(turn_about(axis, 2 * M_PI * i / count));
   std::vector<Eigen::Isometry3d> steps;
   for (const Eigen::Isometry3d& symmetry : object.symmetries)
     for (const Eigen::Isometry3d& turn : turns) steps.push_back(turn * symmetry);
@@ -148,6 +165,25 @@ double PoseMeter::mssd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d&
   return least_over_symmetries([&](const Eigen::Matrix3Xd& points, const Eigen::Isometry3d& step) {
     return farthest(points, T_true * step, T_found);
   });
+}
+
+double PoseMeter::surprise(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found,
+                           const geometry::Matrix6d& covariance) const {
+  const Eigen::LLT<geometry::Matrix6d> factor(covariance);
+  if (!covariance.allFinite() || factor.info() != Eigen::Success) return kUnknown;
+  const Eigen::Isometry3d T_found_true = T_found.inverse() * T_true;
+  const auto squared = [&](const Eigen::Isometry3d& symmetry) {
+    return factor.matrixL().solve(geometry::log_motion(T_found_true * symmetry)).squaredNorm();
+  };
+  double least = kBeyond;
+  Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
+  for (const Eigen::Isometry3d& step : steps_)
+    if (const double value = squared(step); value < least) least = value, best = step;
+  for (const layouts::SymmetryAxis& axis : object_->axes)
+    least = std::min(least, least_between_steps(least, axis, [&](const Eigen::Isometry3d& turn) {
+                       return squared(turn * best);
+                     }));
+  return least;
 }
 
 double PoseMeter::mspd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found,

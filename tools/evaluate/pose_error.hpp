@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/twist.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 
 namespace posevote {
@@ -37,6 +38,11 @@ class PoseMeter {
   double adds(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
   /// BOP's maximum symmetry-aware surface distance [m]; kBeyond as above.
   double mssd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found) const;
+  /// The squared Mahalanobis distance of the pose error, T_true = T_found exp(xi): xi' C^-1 xi, the
+  /// smallest over the symmetries. Of errors that are as `covariance` says it is chi-square
+  /// distributed with six degrees of freedom. kUnknown of what is no covariance.
+  double surprise(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found,
+                  const geometry::Matrix6d& covariance) const;
   /// BOP's maximum symmetry-aware projection distance [pixel]; kBeyond where a model point lies
   /// behind the camera.
   double mspd(const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_found,

@@ -52,13 +52,14 @@ std::string line(const std::string& who, const Rule& rule, const RuleResult& res
   if (counts.instances == 0 && result.unmeasured > 0)
     return head + "    -   needs a depth image and its camera\n";
   if (rule.average())
-    return head + format("%6.3f%55s over %d instances\n", counts.recall(), "", counts.instances);
+    return head + format("%6.3f%62s over %d instances\n", counts.recall(), "", counts.instances);
   const auto best = best_f1(result.curve);
   return head +
-         format("%6.3f %9.3f %6.3f %8.3f %9s %6.3f %6s   %.0f of %d, %d detections\n",
+         format("%6.3f %9.3f %6.3f %8.3f %9s %6.3f %6s %6s   %.0f of %d, %d detections\n",
                 counts.recall(), counts.precision(), counts.f1(), best ? best->counts.f1() : 0.0,
                 best ? format("%.4g", best->score).c_str() : "-", average_precision(result.curve),
-                number(calibration_error(result), 3).c_str(), counts.correct, counts.instances,
+                number(calibration_error(result), 3).c_str(),
+                number(coverage_of(result).share(), 3).c_str(), counts.correct, counts.instances,
                 counts.detections);
 }
 
@@ -100,8 +101,8 @@ std::string to_text(const Evaluation& evaluation, bool instances) {
   if (instances) text << instance_table(evaluation);
   text << notes(evaluation);
   text << "\n"
-       << format("%-10s %-25s %6s %9s %6s %8s %9s %6s %6s\n", "", "rule", "recall", "precision",
-                 "F1", "best F1", "at score", "AP", "ECE");
+       << format("%-10s %-25s %6s %9s %6s %8s %9s %6s %6s %6s\n", "", "rule", "recall", "precision",
+                 "F1", "best F1", "at score", "AP", "ECE", "in 95%");
   for (std::size_t r = 0; r < evaluation.rules.size(); ++r) {
     for (const auto& [obj_id, results] : evaluation.objects)
       text << line("object " + std::to_string(obj_id), evaluation.rules[r], results[r]);

@@ -20,6 +20,7 @@ struct PairErrors {
   double mssd = kUnknown;         ///< [m]
   double mspd = kUnknown;         ///< [pixel of an image 640 wide]
   double vsd_2018 = kUnknown;     ///< tau 20 mm
+  double surprise = kUnknown;     ///< PoseMeter::surprise, where the results have a covariance
   std::vector<double> vsd_steps;  ///< tau 0.05 .. 0.5 diameter; empty: unknown
 };
 

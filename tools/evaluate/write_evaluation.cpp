@@ -35,20 +35,21 @@ void for_each_result(
 
 std::string summary_csv(const Evaluation& evaluation) {
   std::string text =
-      "object,rule,instances,detections,correct,recall,precision,f1,best_f1,threshold,ap,ece\n";
+      "object,rule,instances,detections,correct,recall,precision,f1,best_f1,threshold,ap,ece,in_"
+      "95\n";
   for_each_result(evaluation, [&](const std::string& who, std::size_t r, const RuleResult& result) {
     const Counts& counts = result.counts;
     text += who + "," + evaluation.rules[r].name + "," + std::to_string(counts.instances) + ",";
     const auto best = best_f1(result.curve);
     const std::string recall = counts.instances > 0 ? number(counts.recall()) : "";
     if (evaluation.rules[r].average())
-      text += ",," + recall + ",,,,,,\n";
+      text += ",," + recall + ",,,,,,,\n";
     else
       text += std::to_string(counts.detections) + "," + number(counts.correct) + "," + recall +
               "," + number(counts.precision()) + "," + number(counts.f1()) + "," +
               (best ? number(best->counts.f1()) + "," + number(best->score) : "0,") + "," +
               number(average_precision(result.curve)) + "," + number(calibration_error(result)) +
-              "\n";
+              "," + number(coverage_of(result).share()) + "\n";
   });
   return text;
 }
@@ -154,6 +155,10 @@ ordered_json to_json(const RuleResult& result, const Rule& rule) {
     json["ap"] = average_precision(result.curve);
     const double ece = calibration_error(result);
     json["ece"] = std::isnan(ece) ? ordered_json() : ordered_json(ece);
+    if (const Coverage coverage = coverage_of(result); coverage.known > 0) {
+      json["with_covariance"] = coverage.known;
+      json["in_95"] = coverage.share();
+    }
   }
   for (std::size_t bin = 0; bin < 10; ++bin)
     if (const VisibleBin& place = result.by_visibility[bin]; place.instances > 0)

@@ -16,10 +16,13 @@ void add_options(CLI::App& app, EvaluateCommand& command) {
       "or all. ECE: expected calibration error of the score as the probability to be right, of "
       "all\n"
       "detections in ten bins. A column 'confidence' behind 'time' is judged instead of the "
-      "score.");
+      "score.\nin 95%: of right detections that have a covariance (results.json, also that beside "
+      "a "
+      "results.csv),\nthe share whose true error lies within its 95 % ellipsoid.");
   app.add_option("dataset", command.dataset, "A data set: BOP, SIXD 2017, UWA or Queen's")
       ->required();
-  app.add_option("results", command.results, "The results.csv of a run on it")->required();
+  app.add_option("results", command.results, "The results.csv or results.json of a run on it")
+      ->required();
   app.add_option("--split", command.split, "Split of the data set")->capture_default_str();
   app.add_option("--rules", command.rules, "When a pose is right: rules, or all")
       ->default_str("pose,drost,add,adi15")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 
+#include "graph/schema.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
 
@@ -20,13 +21,29 @@ void add_frames(CLI::App& app, RunCommand& command) {
       ->type_name("NUMBERS|FILE");
 }
 
+/// Stands for a parameter of write_results.
+void add_format(CLI::App& app, RunCommand& command) {
+  const auto set = [&command](const std::vector<std::string>& formats) {
+    command.set.push_back("write_results.format=" + graph::join_list(formats));
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--format", set,
+         "Which results: json (results.json, all there is to say), csv (detections.csv, with "
+         "names, in m), bop (results.csv, in mm). Default: all; --resume needs json")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"json", "csv", "bop"}))
+      ->type_name("json,csv,bop");
+}
+
 void add_options(CLI::App& app, RunCommand& command) {
   app.footer(
       "Examples:\n  posevote run --models part.stl --scenes scans/ --out out/today\n"
       "  posevote run bop --dataset DIR\n\n"
-      "Writes results.csv (BOP format), results.json, failures.json, effective.yaml and "
-      "trace.json\n"
-      "to --out. Exit status: 0 all frames answered, 1 some failed, 2 nothing ran, 130 Ctrl-C.");
+      "Writes results.json, detections.csv, results.csv (BOP format), failures.json, "
+      "effective.yaml\n"
+      "and trace.json to --out. Exit status: 0 all frames answered, 1 some failed, 2 nothing ran, "
+      "130 Ctrl-C.");
   app.add_option("config", command.config,
                  "A file, or a name that `posevote configs` lists (demo, uwa, bop ...)")
       ->capture_default_str();
@@ -37,6 +54,7 @@ void add_options(CLI::App& app, RunCommand& command) {
       ->type_name("DIR");
   app.add_option("--split", command.split, "Split of the data set")->capture_default_str();
   app.add_option("--out", command.out, "Folder for the results")->capture_default_str();
+  add_format(app, command);
   app.add_option("--library", command.library, "A library from `posevote train`, not --models")
       ->type_name("FILE");
   app.add_option("--pipeline", command.pipeline,

@@ -102,6 +102,13 @@ Doubles matrix(const Matrix4& rows) {
   return array;
 }
 
+py::object covariance(const FoundObject& found) {
+  if (!found.covariance) return py::none();
+  Doubles array({6, 6});
+  std::copy(found.covariance->begin(), found.covariance->end(), array.mutable_data());
+  return array;
+}
+
 /// Where the sensor stood: x y z, or the 4 x 4 pose of it in the cloud's frame.
 std::optional<std::array<double, 3>> sensor_place(const std::optional<Doubles>& sensor) {
   if (!sensor) return std::nullopt;
@@ -188,6 +195,10 @@ PYBIND11_MODULE(_posevote, module) {
           "T", [](const FoundObject& found) { return matrix(found.T_scene_model); },
           "4 x 4, metres: takes a point of the model's file to the scan's frame.")
       .def_property_readonly(
+          "covariance", &covariance,
+          "6 x 6, of xi in T_true = T exp(xi): a rotation vector [rad], then a translation [m], in "
+          "the model's frame, about its origin. None: the pose was not refined.")
+      .def_property_readonly(
           "symmetries",
           [](const FoundObject& found) {
             py::list turns;
@@ -201,6 +212,8 @@ PYBIND11_MODULE(_posevote, module) {
       .def_readonly("inlier_share", &FoundObject::inlier_share,
                     "Share of the model's points that face the sensor and lie on scan points.")
       .def_readonly("rms", &FoundObject::rms, "Of the inliers' distance to the scan [m].")
+      .def_readonly("seconds", &FoundObject::seconds,
+                    "Spent on the search for it, since the object's instance before.")
       .def("__repr__", [](const FoundObject& found) {
         return "<posevote.Detection " + found.name + ", confidence " +
                py::cast<std::string>(py::str("{:.2f}").format(found.confidence)) + ">";

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "nodes/formats/results_tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;
@@ -34,6 +35,10 @@ Detections one_chef() {
   return {{found}};
 }
 
+std::string bop_rows(std::size_t number) {
+  return formats::bop_rows(formats::to_json(frame(number), one_chef()));
+}
+
 nlohmann::json json(const std::filesystem::path& file) {
   return nlohmann::json::parse(read_text(file));
 }
@@ -41,7 +46,7 @@ nlohmann::json json(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("a row of results.csv is BOP's: R row by row, t in mm", "[write]") {
-  const std::string row = formats::csv_rows(frame(3), one_chef());
+  const std::string row = bop_rows(3);
   int scene = 0;
   int image = 0;
   int object = 0;
@@ -111,6 +116,75 @@ TEST_CASE(
   CHECK(written["rejected"][0]["why"] == "confidence 0.20 is below min_confidence 0.50");
 }
 
+TEST_CASE("a covariance is written row by row, or null, and the time of the search beside it",
+          "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out", false);
+  Detections chef = one_chef();
+  chef.items.push_back(chef.items[0]);
+  Detection& item = chef.items[0];
+  item.covariance = Eigen::Matrix<double, 6, 6>::Identity();
+  (*item.covariance)(1, 5) = 0.25;
+  item.seconds = 0.5;
+  formats::ResultsWriter(folder / "out").write(frame(0), chef, {});
+  const auto found = json(folder / "out/results.json")["frames"][0]["detections"];
+  REQUIRE(found[0]["covariance"].size() == 36);
+  CHECK(found[0]["covariance"][7] == 1);
+  CHECK(found[0]["covariance"][11] == 0.25);
+  CHECK(found[0]["covariance"][31] == 0);
+  CHECK(found[0]["seconds"] == 0.5);
+  CHECK(found[1]["covariance"].is_null());
+}
+
+TEST_CASE("detections.csv names scan and model, in metres, quoted as RFC 4180 asks", "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out", false);
+  Detections chef = one_chef();
+  chef.items[0].model = "chef, \"old\"";
+  chef.items[0].rmse = 0.00125;
+  formats::FrameReport report = frame(3);
+  report.file.path = "scans/a\nb.ply";
+  formats::ResultsWriter(folder / "out").write(report, chef, {});
+  const std::string text = read_text(folder / "out/detections.csv");
+  const std::string head =
+      "frame,scan,scene_id,im_id,obj_id,model,confidence,x_m,y_m,z_m,qw,qx,qy,qz,rms_m\n"
+      "3,\"scans/a\nb.ply\",0,3,7,\"chef, \"\"old\"\"\",0.5,0.1,-0.2,1.5,";
+  CHECK(text.substr(0, head.size()) == head);
+  double q[4], rms = 0;
+  REQUIRE(std::sscanf(text.c_str() + head.size(), "%lf,%lf,%lf,%lf,%lf\n", q, q + 1, q + 2, q + 3,
+                      &rms) == 5);
+  CHECK(q[0] == Approx(std::sqrt(0.5)));
+  CHECK(q[3] == Approx(std::sqrt(0.5)));
+  CHECK(rms == 0.00125);
+}
+
+TEST_CASE("only the formats that are asked for are written; without json none is resumed",
+          "[write]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "out";
+  const auto begin = [&](bool resume, const std::vector<std::string>& formats) {
+    return formats::begin_results(out, resume, {}, {}, formats);
+  };
+  begin(false, {"csv"});
+  formats::ResultsWriter(out, {"csv"}).write(frame(0), one_chef(), {});
+  CHECK(read_text(out / "detections.csv").find("chef") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(out / "results.json"));
+  CHECK_FALSE(std::filesystem::exists(out / "results.csv"));
+  CHECK(json(out / "failures.json").empty());
+  CHECK_THROWS_AS(begin(false, {"csv"}), std::invalid_argument);  // holds another run
+  CHECK_THROWS_WITH(begin(true, {"csv", "bop"}), Catch::Contains("without results.json"));
+  CHECK(read_text(out / "detections.csv").find("chef") != std::string::npos);  // untouched
+  // With json, any table is made anew from it.
+  std::filesystem::remove_all(out);
+  begin(false, {"json", "csv"});
+  formats::ResultsWriter(out, {"json", "csv"}).write(frame(0), one_chef(), {});
+  const std::string table = read_text(out / "detections.csv");
+  std::ofstream(out / "detections.csv", std::ios::app) << "half a ro";
+  CHECK(begin(true, {"json", "csv"}) == std::set<std::size_t>{0});
+  CHECK(read_text(out / "detections.csv") == table);
+  CHECK_FALSE(std::filesystem::exists(out / "results.csv"));
+}
+
 TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[write]") {
   const TemporaryFolder folder;
   formats::begin_results(folder / "out", false);
@@ -145,14 +219,13 @@ TEST_CASE("resuming keeps answered frames and drops what a killed run left half 
     writer.write(frame(1), {}, {});
     writer.write(formats::FailureReport{2, "b.ply", "load_scene", "empty"});
   }
-  std::ofstream(folder / "out/results.csv", std::ios::app)
-      << formats::csv_rows(frame(4), one_chef()) << "0,5";
+  std::ofstream(folder / "out/results.csv", std::ios::app) << bop_rows(4) << "0,5";
   std::ofstream(folder / "out/results.json", std::ios::app) << "{\"frame\": 5, \"fi";
   const std::filesystem::path scan = frame(0).file.path;
   CHECK(formats::begin_results(folder / "out", true, {{0, scan}, {1, scan}, {2, "b.ply"}}) ==
         std::set<std::size_t>{0, 1});
   CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + formats::csv_rows(frame(0), one_chef()));
+        "scene_id,im_id,obj_id,score,R,t,time\n" + bop_rows(0));
   formats::ResultsWriter(folder / "out").write(frame(2), one_chef(), {});
   CHECK(json(folder / "out/results.json")["frames"].size() == 3);
   CHECK(json(folder / "out/failures.json").empty());
@@ -176,7 +249,7 @@ TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touc
   formats::begin_results(folder / "out", true,
                          {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
   CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + formats::csv_rows(frame(0), one_chef()));
+        "scene_id,im_id,obj_id,score,R,t,time\n" + bop_rows(0));
 }
 
 TEST_CASE("resuming one shard keeps the failures of the others", "[write]") {
