@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "nodes/poses/memory.hpp"
 #include "nodes/poses/scan_state.hpp"
 #include "nodes/poses/terms.hpp"
 
@@ -23,6 +25,10 @@ struct InstanceParams {
   float explained_distance = 0;  ///< scan points this near to an instance are taken out [m]
 };
 
+/// How far the model's surface and the ends of it reach from its centre [m], and a trifle for
+/// rounding.
+double reach_of(const Model& model);
+
 /// What is looked for, where, and by which rules.
 struct Sought {
   const Model& model;
@@ -35,6 +41,10 @@ struct Sought {
   /// Rows of the scan's features whose scale the model was described at; they alone can vote.
   std::vector<Octave> voters = {};
   double most_support = 1;  ///< of the poses that are compared
+  double reach = reach_of(model);
+  std::shared_ptr<const geometry::PointGrid> model_grid =
+      std::make_shared<const geometry::PointGrid>(model.cloud.points, params.tolerance);
+  std::shared_ptr<Memory> memory = std::make_shared<Memory>();
 };
 
 }  // namespace posevote::poses
