@@ -4,6 +4,7 @@
 #include "nodes/descriptors/descriptor_kernels.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -18,45 +19,79 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert(HWY_LANES(float) <= kKernelPadding);
 
-// A panel is at least two vectors wide, and 6 x 2 sums are enough to hide the latency of the fused
-// multiply-add while they still fit the 16 registers of AVX2.
-void score_panel(const float* HWY_RESTRICT queries, const float* HWY_RESTRICT panel,
-                 std::size_t dimension, const float* HWY_RESTRICT half_norms,
-                 float* HWY_RESTRICT scores, std::size_t stride) {
-  const hn::CappedTag<float, kPanelRows / 2> tag;
-  const std::size_t lanes = hn::Lanes(tag);
-  static_assert(kTileQueries == 6, "the sums below are written out for six queries");
-  for (std::size_t r = 0; r < kPanelRows; r += 2 * lanes) {
-    auto a0 = hn::LoadU(tag, half_norms + r), a1 = hn::LoadU(tag, half_norms + r + lanes);
-    auto b0 = a0, b1 = a1, c0 = a0, c1 = a1, d0 = a0, d1 = a1, e0 = a0, e1 = a1, f0 = a0, f1 = a1;
-    for (std::size_t k = 0; k < dimension; ++k) {
-      const auto left = hn::Load(tag, panel + k * kPanelRows + r);
-      const auto right = hn::Load(tag, panel + k * kPanelRows + r + lanes);
-      const float* q = queries + k * kTileQueries;
-      const auto subtract = [&](auto& score_left, auto& score_right, float value) HWY_ATTR {
-        const auto factor = hn::Set(tag, value);
-        score_left = hn::NegMulAdd(factor, left, score_left);
-        score_right = hn::NegMulAdd(factor, right, score_right);
-      };
-      subtract(a0, a1, q[0]);
-      subtract(b0, b1, q[1]);
-      subtract(c0, c1, q[2]);
-      subtract(d0, d1, q[3]);
-      subtract(e0, e1, q[4]);
-      subtract(f0, f1, q[5]);
+#if HWY_TARGET == HWY_SCALAR
+
+void score_panel(const Pair* queries, const float* factors, const Pair* panel, std::size_t pairs,
+                 const float* half_norms, float* scores, std::size_t stride) {
+  for (std::size_t q = 0; q < kTileQueries; ++q)
+    for (std::size_t r = 0; r < kPanelRows; ++r) {
+      std::int32_t sum = 0;
+      for (std::size_t k = 0; k < pairs; ++k) {
+        const Pair a = queries[k * kTileQueries + q], b = panel[k * kPanelRows + r];
+        sum += a.first * b.first + a.second * b.second;
+      }
+      scores[q * stride + r] = half_norms[r] - factors[q] * static_cast<float>(sum);
     }
-    const auto store = [&](std::size_t q, auto score_left, auto score_right) HWY_ATTR {
-      hn::StoreU(score_left, tag, scores + q * stride + r);
-      hn::StoreU(score_right, tag, scores + q * stride + r + lanes);
+}
+
+#else
+
+// A panel is at least two vectors wide, and 4 x 2 sums are enough to hide the latency of an
+// addition. With more, compilers run out of the 16 registers of AVX2.
+void score_panel(const Pair* HWY_RESTRICT queries, const float* HWY_RESTRICT factors,
+                 const Pair* HWY_RESTRICT panel, std::size_t pairs,
+                 const float* HWY_RESTRICT half_norms, float* HWY_RESTRICT scores,
+                 std::size_t stride) {
+  const hn::CappedTag<float, kPanelRows / 2> floats;
+  const hn::RebindToSigned<decltype(floats)> sums;
+  const hn::Repartition<std::int16_t, decltype(sums)> numbers;
+  const std::size_t lanes = hn::Lanes(floats);
+  static_assert(kTileQueries == 4, "the sums below are written out for four queries");
+  for (std::size_t r = 0; r < kPanelRows; r += 2 * lanes) {
+    const auto zero = hn::Zero(sums);
+    auto a0 = zero, a1 = zero, b0 = zero, b1 = zero;
+    auto c0 = zero, c1 = zero, d0 = zero, d1 = zero;
+    // What a processor may keep in a second sum; on x86 there is none.
+    auto a2 = zero, a3 = zero, b2 = zero, b3 = zero;
+    auto c2 = zero, c3 = zero, d2 = zero, d3 = zero;
+    for (std::size_t k = 0; k < pairs; ++k) {
+      const auto* row = reinterpret_cast<const std::int16_t*>(panel + k * kPanelRows + r);
+      const auto left = hn::Load(numbers, row), right = hn::Load(numbers, row + 2 * lanes);
+      const Pair* q = queries + k * kTileQueries;
+      const auto add = [&](Pair pair, auto& sum_left, auto& more_left, auto& sum_right,
+                           auto& more_right) HWY_ATTR {
+        std::int32_t both;
+        std::memcpy(&both, &pair, sizeof both);
+        const auto factor = hn::BitCast(numbers, hn::Set(sums, both));
+        sum_left = hn::ReorderWidenMulAccumulate(sums, factor, left, sum_left, more_left);
+        sum_right = hn::ReorderWidenMulAccumulate(sums, factor, right, sum_right, more_right);
+      };
+      add(q[0], a0, a2, a1, a3);
+      add(q[1], b0, b2, b1, b3);
+      add(q[2], c0, c2, c1, c3);
+      add(q[3], d0, d2, d1, d3);
+    }
+    const auto half_left = hn::LoadU(floats, half_norms + r);
+    const auto half_right = hn::LoadU(floats, half_norms + r + lanes);
+    const auto store = [&](std::size_t q, auto left, auto more_left, auto right,
+                           auto more_right) HWY_ATTR {
+      const auto factor = hn::Set(floats, factors[q]);
+      const auto product = [&](auto sum, auto more) HWY_ATTR {
+        return hn::ConvertTo(floats, hn::RearrangeToOddPlusEven(sum, more));
+      };
+      float* out = scores + q * stride + r;
+      hn::StoreU(hn::NegMulAdd(factor, product(left, more_left), half_left), floats, out);
+      hn::StoreU(hn::NegMulAdd(factor, product(right, more_right), half_right), floats,
+                 out + lanes);
     };
-    store(0, a0, a1);
-    store(1, b0, b1);
-    store(2, c0, c1);
-    store(3, d0, d1);
-    store(4, e0, e1);
-    store(5, f0, f1);
+    store(0, a0, a2, a1, a3);
+    store(1, b0, b2, b1, b3);
+    store(2, c0, c2, c1, c3);
+    store(3, d0, d2, d1, d3);
   }
 }
+
+#endif
 
 float second_lowest(const float* HWY_RESTRICT scores, std::size_t count) {
   const hn::ScalableTag<float> tag;
@@ -164,9 +199,9 @@ HWY_EXPORT(find_low);
 HWY_EXPORT(multiply);
 HWY_EXPORT(squared_distance);
 
-void score_panel(const float* queries, const float* panel, std::size_t dimension,
+void score_panel(const Pair* queries, const float* factors, const Pair* panel, std::size_t pairs,
                  const float* half_norms, float* scores, std::size_t stride) {
-  HWY_DYNAMIC_DISPATCH(score_panel)(queries, panel, dimension, half_norms, scores, stride);
+  HWY_DYNAMIC_DISPATCH(score_panel)(queries, factors, panel, pairs, half_norms, scores, stride);
 }
 
 float second_lowest(const float* scores, std::size_t count) {

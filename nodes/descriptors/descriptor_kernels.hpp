@@ -10,12 +10,19 @@ namespace posevote::descriptors {
 
 /// Rows of a panel and queries of a tile: what the registers of score_panel hold.
 inline constexpr std::size_t kPanelRows = 32;
-inline constexpr std::size_t kTileQueries = 6;
+inline constexpr std::size_t kTileQueries = 4;
 
-/// scores[q * stride + r] = half_norms[r] - sum over k of queries[k * kTileQueries + q] * panel[k *
-/// kPanelRows + r] for all q < kTileQueries, r < kPanelRows. `panel` is aligned to 64 bytes. How
-/// the sums round depends on the processor: to be used within an error bound only.
-void score_panel(const float* queries, const float* panel, std::size_t dimension,
+/// Two neighbouring numbers of a descriptor, as whole multiples of a step.
+struct Pair {
+  std::int16_t first = 0, second = 0;
+};
+
+/// scores[q * stride + r] = half_norms[r] - factors[q] * sum over k of the inner products of
+/// queries[k * kTileQueries + q] and panel[k * kPanelRows + r] for all q < kTileQueries, r <
+/// kPanelRows. Whole numbers take half the time of floats; no sum may leave 32 bits. `panel` is
+/// aligned to 64 bytes. How a score rounds depends on the processor: to be used within an error
+/// bound only.
+void score_panel(const Pair* queries, const float* factors, const Pair* panel, std::size_t pairs,
                  const float* half_norms, float* scores, std::size_t stride);
 
 /// What may be read behind the last of the scores, and written behind what is found.

@@ -4,6 +4,8 @@
 #include <hwy/aligned_allocator.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -15,22 +17,54 @@ namespace posevote::descriptors {
 namespace {
 
 constexpr std::size_t kBlockQueries =
-    16 * kTileQueries;                               // their scores stay in the second cache ...
+    24 * kTileQueries;                               // their scores stay in the second cache ...
 constexpr std::size_t kChunkRows = 64 * kPanelRows;  // ... for this many rows at a time
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 std::size_t round_up(std::size_t n, std::size_t step) { return (n + step - 1) / step * step; }
 
-/// Rows of `matrix` from `first` on, interleaved by `width`: all first columns, all second columns.
-/// Missing rows are zero.
-void interleave(const DescriptorMatrix& matrix, std::size_t first, std::size_t width, float* out) {
-  const auto columns = static_cast<std::size_t>(matrix.cols());
+// Of a descriptor's length: no number leaves 16 bits, however the length was rounded, and no sum of
+// products 32.
+constexpr float kMostSteps = 32000;
+
+/// Of a descriptor no longer than `length`. Not a number where floats are too coarse for it.
+float step_of(float length) {
+  const float step = length / kMostSteps;
+  return length == 0 || std::isnormal(step) ? step : std::numeric_limits<float>::quiet_NaN();
+}
+
+std::int16_t in_steps(float number, float step) {
+  if (!(step > 0)) return 0;
+  const float steps = number / step;
+  return static_cast<std::int16_t>(steps + std::copysign(0.5F, steps));
+}
+
+/// What a product of steps stands for. If not a number, no score is, and all rows are compared.
+float factor_of(float step, float other_step) {
+  const float factor = step * other_step;
+  return step == 0 || other_step == 0 || std::isnormal(factor)
+             ? factor
+             : std::numeric_limits<float>::quiet_NaN();
+}
+
+/// Numbers of a descriptor two by two, the last perhaps alone.
+std::size_t pairs_of(Eigen::Index columns) { return static_cast<std::size_t>(columns + 1) / 2; }
+
+/// Rows of `matrix` from `first` on, in steps, interleaved by `width`: all first pairs, all second
+/// pairs. Missing rows are zero. `step_at`(row) is that of each.
+template <class StepAt>
+void interleave(const DescriptorMatrix& matrix, std::size_t first, std::size_t width,
+                const StepAt& step_at, Pair* out) {
   const std::size_t count = std::min(width, static_cast<std::size_t>(matrix.rows()) - first);
-  for (std::size_t k = 0; k < columns; ++k)
-    for (std::size_t r = 0; r < width; ++r)
-      out[k * width + r] =
-          r < count ? matrix(static_cast<Eigen::Index>(first + r), static_cast<Eigen::Index>(k))
-                    : 0;
+  std::fill_n(out, pairs_of(matrix.cols()) * width, Pair{});
+  for (std::size_t r = 0; r < count; ++r) {
+    const auto row = static_cast<Eigen::Index>(first + r);
+    const float step = step_at(row);
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+      Pair& pair = out[static_cast<std::size_t>(k / 2) * width + r];
+      (k % 2 == 0 ? pair.first : pair.second) = in_steps(matrix(row, k), step);
+    }
+  }
 }
 
 /// The nearest two rows of one query, found chunk by chunk. The score of a row is |b|^2 / 2 - ab of
@@ -80,6 +114,26 @@ class Search {
   BestTwo best_;
 };
 
+/// Short queries, kTileQueries at a time, interleaved.
+struct Tiles {
+  /// `row_step`: of the rows that they are compared with.
+  Tiles(const DescriptorMatrix& queries, float row_step)
+      : count(round_up(static_cast<std::size_t>(queries.rows()), kTileQueries) / kTileQueries),
+        size(kTileQueries * pairs_of(queries.cols())),
+        pairs(count * size),
+        factors(count * kTileQueries, 0) {
+    const auto step_at = [&](Eigen::Index row) { return step_of(queries.row(row).norm()); };
+    for (std::size_t tile = 0; tile < count; ++tile)
+      interleave(queries, tile * kTileQueries, kTileQueries, step_at, pairs.data() + tile * size);
+    for (Eigen::Index q = 0; q < queries.rows(); ++q)
+      factors[static_cast<std::size_t>(q)] = factor_of(step_at(q), row_step);
+  }
+
+  std::size_t count, size;
+  std::vector<Pair> pairs;
+  std::vector<float> factors;  ///< what a product of steps stands for, per query
+};
+
 }  // namespace
 
 struct ExactIndex::Data {
@@ -87,46 +141,46 @@ struct ExactIndex::Data {
 
   DescriptorMatrix rows;
   PrincipalAxes axes;
-  Eigen::ArrayXf half_squared_norm;           ///< |b|^2 / 2 of the short rows; of padding, infinity
-  float longest = 0;                          ///< largest |b| of them
-  hwy::AlignedFreeUniquePtr<float[]> panels;  ///< kPanelRows short rows at a time, interleaved
+  Eigen::ArrayXf half_squared_norm;          ///< |b|^2 / 2 of the short rows; of padding, infinity
+  float longest = 0;                         ///< largest |b| of them
+  float step = 0;                            ///< of the short rows
+  hwy::AlignedFreeUniquePtr<Pair[]> panels;  ///< kPanelRows short rows at a time, interleaved
 
+  std::size_t pairs() const { return pairs_of(axes.length()); }
   std::size_t length() const { return static_cast<std::size_t>(axes.length()); }
   std::size_t count() const { return static_cast<std::size_t>(rows.rows()); }
   float error(float query_length) const;
-  void score(const float* packed, std::size_t tiles, std::size_t first, std::size_t row_count,
-             float* scores) const;
+  void score(const Tiles& queries, std::size_t first, std::size_t row_count, float* scores) const;
   void match_block(const DescriptorMatrix& queries, std::size_t first, std::size_t query_count,
                    TwoNearest* out) const;
 };
 
-/// The largest error of a score (Higham, Accuracy and Stability, section 3.1), and what the short
-/// descriptors may have moved.
+/// The largest error of a score: of rounding (Higham, Accuracy and Stability, section 3.1), what
+/// the short descriptors may have moved, and what each of two loses in steps: half of one a number.
 float ExactIndex::Data::error(float query_length) const {
   const float unit = std::numeric_limits<float>::epsilon();  // twice the unit of rounding: generous
   const float both = query_length + longest;
   const float rounding = static_cast<float>(length() + 8) * unit + PrincipalAxes::kMoves;
-  return rounding * both * both + std::numeric_limits<float>::min();
+  const float lost = 0.51F * std::sqrt(static_cast<float>(length())) / kMostSteps;
+  return rounding * both * both + lost * (2 + lost) * query_length * longest +
+         std::numeric_limits<float>::min();
 }
 
-void ExactIndex::Data::score(const float* packed, std::size_t tiles, std::size_t first,
-                             std::size_t row_count, float* scores) const {
+void ExactIndex::Data::score(const Tiles& queries, std::size_t first, std::size_t row_count,
+                             float* scores) const {
   for (std::size_t r = 0; r < row_count; r += kPanelRows)
-    for (std::size_t tile = 0; tile < tiles; ++tile)
-      score_panel(packed + tile * kTileQueries * length(), panels.get() + (first + r) * length(),
-                  length(), half_squared_norm.data() + first + r,
-                  scores + tile * kTileQueries * kChunkRows + r, kChunkRows);
+    for (std::size_t tile = 0; tile < queries.count; ++tile)
+      score_panel(
+          queries.pairs.data() + tile * queries.size, queries.factors.data() + tile * kTileQueries,
+          panels.get() + (first + r) * pairs(), pairs(), half_squared_norm.data() + first + r,
+          scores + tile * kTileQueries * kChunkRows + r, kChunkRows);
 }
 
 void ExactIndex::Data::match_block(const DescriptorMatrix& queries, std::size_t first,
                                    std::size_t query_count, TwoNearest* out) const {
   const DescriptorMatrix brief = axes.shorten(queries, static_cast<Eigen::Index>(first),
                                               static_cast<Eigen::Index>(query_count));
-  const std::size_t tiles = round_up(query_count, kTileQueries) / kTileQueries;
-  std::vector<float> packed(tiles * kTileQueries * length());
-  for (std::size_t tile = 0; tile < tiles; ++tile)
-    interleave(brief, tile * kTileQueries, kTileQueries,
-               packed.data() + tile * kTileQueries * length());
+  const Tiles tiles(brief, step);
   std::vector<Search> searches;
   for (std::size_t q = 0; q < query_count; ++q) {
     const auto i = static_cast<Eigen::Index>(q);
@@ -134,11 +188,11 @@ void ExactIndex::Data::match_block(const DescriptorMatrix& queries, std::size_t 
     searches.emplace_back(rows, query, brief.row(i).cast<double>().squaredNorm(),
                           error(brief.row(i).norm()));
   }
-  std::vector<float> scores(tiles * kTileQueries * kChunkRows + kKernelPadding);
+  std::vector<float> scores(tiles.count * kTileQueries * kChunkRows + kKernelPadding);
   std::vector<std::uint32_t> places(kChunkRows + kKernelPadding);
   for (std::size_t row = 0; row < count(); row += kChunkRows) {
     const std::size_t row_count = std::min(kChunkRows, count() - row);
-    score(packed.data(), tiles, row, row_count, scores.data());
+    score(tiles, row, row_count, scores.data());
     for (std::size_t q = 0; q < query_count; ++q)
       searches[q].look(scores.data() + q * kChunkRows, row_count, row, places);
   }
@@ -153,9 +207,12 @@ ExactIndex::ExactIndex(DescriptorMatrix rows) {
   data->half_squared_norm.head(brief.rows()) =
       (brief.cast<double>().rowwise().squaredNorm() / 2).cast<float>();
   data->longest = brief.rowwise().norm().maxCoeff();
-  data->panels = hwy::AllocateAligned<float>(padded * data->length());
+  data->step = step_of(data->longest);
+  data->panels = hwy::AllocateAligned<Pair>(padded * data->pairs());
   for (std::size_t row = 0; row < padded; row += kPanelRows)
-    interleave(brief, row, kPanelRows, data->panels.get() + row * data->length());
+    interleave(
+        brief, row, kPanelRows, [&](Eigen::Index) { return data->step; },
+        data->panels.get() + row * data->pairs());
   data_ = std::move(data);
 }
 

@@ -2,10 +2,10 @@
 // Exact two nearest neighbours.
 //
 // Short descriptors (principal_axes.hpp), whose distances are never larger than the true ones, are
-// compared with all rows by blocked products, |a - b|^2 = |a|^2 + |b|^2 - 2 ab, at the processor's
-// full speed; at the lengths of descriptors that beats every tree. Rows which that leaves as near
-// as the second nearest known so far, within a bound on the products' rounding, are compared in
-// full. Cost: queries x rows x short length, and some forty full distances a query.
+// compared with all rows by blocked products, |a - b|^2 = |a|^2 + |b|^2 - 2 ab, of 16-bit steps at
+// the processor's full speed; at the lengths of descriptors that beats every tree. Rows which that
+// leaves as near as the second nearest known so far, within a bound on what steps and rounding lose,
+// are compared in full. Cost: queries x rows x short length, and some forty full distances a query.
 #pragma once
 
 #include <memory>

@@ -75,7 +75,8 @@ void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& p
 }  // namespace
 
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
-                      const IcpParams& params) {
+                      const IcpParams& params,
+                      const std::function<void(const Eigen::Isometry3d&)>& pass) {
   const IcpTerms& terms = params.terms;
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
@@ -90,6 +91,7 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
     const Vector6d step = limit_step(solve_step(pairs, pivot, damping), distance);
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
+    if (pass) pass(T_scene_model);
     if (distance <= end && step.norm() <= params.still * end) break;
     distance = std::max(end, distance * terms.shrink);
   }

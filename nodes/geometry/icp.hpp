@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/geometry/scan_surface.hpp"
@@ -34,8 +35,10 @@ struct IcpParams {
   IcpTerms terms{};
 };
 
-/// The refined T_scene_model; the start where too few points find a partner. Never NaN.
+/// The refined T_scene_model; the start where too few points find a partner. Never NaN. `pass`: is
+/// called with each pose on the way, but for the start.
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
-                      const IcpParams& params);
+                      const IcpParams& params,
+                      const std::function<void(const Eigen::Isometry3d&)>& pass = {});
 
 }  // namespace posevote::geometry

@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/refinement.hpp"
 
+#include <algorithm>
+
 #include "nodes/poses/confidence.hpp"
 #include "nodes/poses/score.hpp"
 
 namespace posevote::poses {
 namespace {
 
-void run_icp(const Sought& sought, Candidate& candidate, const geometry::IcpParams& params) {
+enum Kind { kFirstSteps, kFull, kPolish };
+
+void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
+             const geometry::IcpParams& params) {
   if (!sought.params.refine) return;
-  candidate.T_scene_model =
-      geometry::icp(sought.model.cloud, sought.scan.surface, candidate.T_scene_model, params);
+  const Eigen::Isometry3d start = candidate.T_scene_model;
+  candidate.T_scene_model = sought.memory->refined.get(sought.scan, {start, kind}, [&] {
+    Answer<Eigen::Isometry3d> end{start, {}, 0};
+    const auto pass = [&](const Eigen::Isometry3d& T_scene_model) {
+      end.centers.extend(posed_center(T_scene_model, sought.model.center));
+    };
+    pass(start);
+    end.value = geometry::icp(sought.model.cloud, sought.scan.surface, start, params, pass);
+    end.radius = sought.reach +
+                 1.001 * static_cast<double>(std::max(params.start_distance, params.end_distance));
+    return end;
+  });
 }
 
 }  // namespace
 
 void take_first_steps(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  run_icp(sought, candidate,
+  run_icp(sought, candidate, kFirstSteps,
           {terms.coarse_steps, sought.params.icp_distance, sought.params.tolerance,
            terms.coarse_points, terms.full_still, sought.terms.icp});
 }
@@ -25,7 +40,7 @@ void take_first_steps(const Sought& sought, Candidate& candidate) {
 void refine(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   if (!candidate.is_refined)
-    run_icp(sought, candidate,
+    run_icp(sought, candidate, kFull,
             {sought.params.icp_iterations, sought.params.icp_distance, sought.params.tolerance,
              terms.full_points, terms.full_still, sought.terms.icp});
   candidate.is_refined = true;
@@ -35,7 +50,7 @@ void refine(const Sought& sought, Candidate& candidate) {
 
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  run_icp(sought, candidate,
+  run_icp(sought, candidate, kPolish,
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
            terms.polish_points, terms.polish_still, sought.terms.icp});
   judge(sought, candidate, 0);

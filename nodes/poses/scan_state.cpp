@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/scan_state.hpp"
 
+#include <algorithm>
+
 #include "nodes/data/hypotheses.hpp"
 #include "nodes/poses/explain_points.hpp"
 
@@ -8,6 +10,13 @@ namespace posevote::poses {
 namespace {
 
 constexpr float kSearchCell = 2;  // x resolution; of the index, changes no result
+
+void extend(Eigen::AlignedBox3d& box, const PointMatrix& points, const std::vector<char>& chosen) {
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    if (chosen[i] != 0)
+      box.extend(
+          Eigen::Vector3d(points.row(static_cast<Eigen::Index>(i)).transpose().cast<double>()));
+}
 
 }  // namespace
 
@@ -24,21 +33,31 @@ void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_mo
                          float distance) {
   ++takes;
   const geometry::PointGrid grid(model.cloud.points, distance);
-  surface.take_out(
-      explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance));
+  const std::vector<char> points =
+      explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance);
+  surface.take_out(points);
   const std::vector<char> now =
       explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
   for (std::size_t i = 0; i < now.size(); ++i)
     feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
+  Eigen::AlignedBox3d& gone = gone_.emplace_back();
+  extend(gone, cloud.points, points);
+  extend(gone, features.points, now);
+}
+
+bool ScanState::changed_since(int since, const Eigen::AlignedBox3d& box, double radius) const {
+  return std::any_of(gone_.begin() + since, gone_.end(), [&](const Eigen::AlignedBox3d& gone) {
+    return !gone.isEmpty() && gone.squaredExteriorDistance(box) <= radius * radius;
+  });
 }
 
 double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
   return (posed_center(T_scene_model, model.center) - cloud.view.origin.cast<double>()).norm();
 }
 
-std::size_t ScanState::count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
-                                       float distance, const std::vector<Octave>& octaves) const {
-  const geometry::PointGrid grid(model.cloud.points, distance);
+std::size_t ScanState::count_explained(const Model& model, const geometry::PointGrid& grid,
+                                       const Eigen::Isometry3d& T_scene_model, float distance,
+                                       const std::vector<Octave>& octaves) const {
   const std::vector<char> now =
       explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
   std::size_t count = 0;

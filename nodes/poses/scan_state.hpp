@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nodes/data/model.hpp"
+#include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/range_view.hpp"
 #include "nodes/geometry/scan_surface.hpp"
 #include "nodes/poses/terms.hpp"
@@ -22,8 +23,13 @@ struct ScanState {
   /// points and features. Free space stays what it is: `view` keeps all points.
   void take_out(const Model& model, const Eigen::Isometry3d& T_scene_model, float distance);
   /// How many features of these octaves that nothing explained yet would a posed model explain.
-  std::size_t count_explained(const Model& model, const Eigen::Isometry3d& T_scene_model,
-                              float distance, const std::vector<Octave>& octaves) const;
+  /// `grid`: of the model's points.
+  std::size_t count_explained(const Model& model, const geometry::PointGrid& grid,
+                              const Eigen::Isometry3d& T_scene_model, float distance,
+                              const std::vector<Octave>& octaves) const;
+  /// Whether points or features that were left when `takes` was `since` have gone, as far as these
+  /// lie within `radius` of a box [m]. Never false where they do.
+  bool changed_since(int since, const Eigen::AlignedBox3d& box, double radius) const;
 
   /// How far a posed model's centre is from the sensor [m].
   double range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
@@ -36,6 +42,9 @@ struct ScanState {
   std::vector<char> feature_explained;  // per scene feature
   int takes = 0;                        // how often something was taken out
   UsualResidual usual_residual;         // of what was found
+
+ private:
+  std::vector<Eigen::AlignedBox3d> gone_;  // what each take took out lies in
 };
 
 }  // namespace posevote::poses

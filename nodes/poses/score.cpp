@@ -3,13 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace posevote::poses {
 
+namespace {
+
+/// What depends on the scan within the tolerance of a posed model.
+template <class Value>
+Answer<Value> answer_at(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Value value) {
+  const Eigen::Vector3d center = posed_center(T_scene_model, sought.model.center);
+  return {std::move(value), Eigen::AlignedBox3d(center),
+          sought.reach + 1.001 * static_cast<double>(sought.params.tolerance)};
+}
+
+std::size_t count_explained(const Sought& sought, const Eigen::Isometry3d& T_scene_model) {
+  return sought.memory->explained.get(sought.scan, {T_scene_model}, [&] {
+    return answer_at(sought, T_scene_model,
+                     sought.scan.count_explained(sought.model, *sought.model_grid, T_scene_model,
+                                                 sought.params.tolerance, sought.voters));
+  });
+}
+
+}  // namespace
+
 Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Eigen::Index points) {
-  return measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
-                     sought.scan.view, T_scene_model, sought.params.tolerance, points,
-                     sought.terms.fit);
+  return sought.memory->fits.get(sought.scan, {T_scene_model, points}, [&] {
+    return answer_at(
+        sought, T_scene_model,
+        measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface, sought.scan.view,
+                    T_scene_model, sought.params.tolerance, points, sought.terms.fit));
+  });
 }
 
 void grade(const Sought& sought, Candidate& candidate) {
@@ -42,8 +66,7 @@ double exactness(const Sought& sought, const Candidate& candidate) {
 /// The fit tells how much of the surface is there, the consensus how many of the features on it had
 /// voted for the pose before anybody looked.
 double votes_per_feature(const Sought& sought, const Candidate& candidate) {
-  const std::size_t explained = sought.scan.count_explained(sought.model, candidate.T_scene_model,
-                                                            sought.params.tolerance, sought.voters);
+  const std::size_t explained = count_explained(sought, candidate.T_scene_model);
   const double votes = static_cast<double>(std::max<std::size_t>(1, explained)) *
                        sought.votes_per_correspondence / sought.terms.score.usual_votes;
   return candidate.proposed.support / votes;

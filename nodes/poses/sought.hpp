@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "nodes/poses/memory.hpp"
 #include "nodes/poses/scan_state.hpp"
 #include "nodes/poses/terms.hpp"
 
@@ -30,6 +32,10 @@ struct InstanceParams {
   float explained_distance = 0;  ///< scan points this near to an instance are taken out [m]
 };
 
+/// How far the model's surface and the ends of it reach from its centre [m], and a trifle for
+/// rounding.
+double reach_of(const Model& model);
+
 /// What is looked for, where, and by which rules.
 struct Sought {
   const Model& model;
@@ -43,6 +49,10 @@ struct Sought {
   std::vector<Octave> voters = {};
   double most_support = 1;  ///< of the poses that are compared
   Watch watch = {};         ///< empty: nobody wants to see
+  double reach = reach_of(model);
+  std::shared_ptr<const geometry::PointGrid> model_grid =
+      std::make_shared<const geometry::PointGrid>(model.cloud.points, params.tolerance);
+  std::shared_ptr<Memory> memory = std::make_shared<Memory>();
 };
 
 }  // namespace posevote::poses

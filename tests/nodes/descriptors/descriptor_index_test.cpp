@@ -169,6 +169,22 @@ TEST_CASE("exact search stays exact where float products cancel", "[match]") {
   CHECK(mistakes(rows, queries, "exact") == 0);
 }
 
+TEST_CASE("exact search stays exact whatever the size of the numbers", "[match]") {
+  // Steps of 16 bits follow the longest descriptor; where floats are too coarse for a step, or all
+  // rows are alike, every row must be compared.
+  for (const float size : {1e-30F, 1e-18F, 1.0F, 1e15F}) {
+    const DescriptorMatrix rows = size * random_matrix(300, 33, 21);
+    const DescriptorMatrix queries = size * random_matrix(40, 33, 22);
+    CHECK(mistakes(rows, queries, "exact") == 0);
+  }
+  DescriptorMatrix uneven = random_matrix(300, 33, 23);
+  uneven.row(7) *= 2000;  // all others are a few steps long
+  uneven.col(5) *= 0.001F;
+  CHECK(mistakes(uneven, random_matrix(40, 33, 24), "exact") == 0);
+  const DescriptorMatrix alike = DescriptorMatrix::Constant(70, 33, 0.5F);
+  CHECK(mistakes(alike, random_matrix(10, 33, 25), "exact") == 0);
+}
+
 TEST_CASE("rows are counted through all blocks, empty ones too", "[match]") {
   const DescriptorMatrix a = random_matrix(5, 8, 1), none, b = random_matrix(40, 8, 2);
   const auto nearest = descriptors::DescriptorIndex({&a, &none, &b}, {}).nearest_two(b);
