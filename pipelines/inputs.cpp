@@ -9,9 +9,11 @@
 #include <stdexcept>
 
 #include "nodes/formats/format.hpp"
+#include "nodes/layouts/camera_file.hpp"
 #include "nodes/layouts/files.hpp"
 #include "nodes/layouts/layout.hpp"
 #include "nodes/layouts/models_info.hpp"
+#include "nodes/layouts/recording.hpp"
 
 namespace posevote {
 namespace {
@@ -65,6 +67,20 @@ std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted
   return paths;
 }
 
+/// The scans of a folder of depth images with their cameras, of another folder, a file or a glob.
+std::vector<SceneFile> expand_scans(const std::string& argument) {
+  const layouts::Recording* recording =
+      fs::is_directory(argument) ? layouts::find_recording(argument) : nullptr;
+  if (recording) return recording->frames(argument);
+  std::vector<SceneFile> files;
+  for (fs::path& path : expand(argument, formats::Wanted::kAny)) {
+    const bool image = formats::has_ending(path, formats::Wanted::kDepthImages);
+    const auto camera = image ? layouts::camera_beside(path) : std::nullopt;
+    files.push_back({std::move(path), 0, 0, camera});
+  }
+  return files;
+}
+
 /// As people count: scan2 before scan10.
 bool in_natural_order(const fs::path& a, const fs::path& b) {
   const std::string left = a.string(), right = b.string();
@@ -86,15 +102,20 @@ void name_scenes(std::vector<SceneEntry>& scenes) {
 }  // namespace
 
 std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
-  std::vector<fs::path> paths;
+  std::vector<SceneFile> files;
   for (const std::string& argument : arguments)
-    for (fs::path& path : expand(argument, formats::Wanted::kAny)) paths.push_back(std::move(path));
-  std::sort(paths.begin(), paths.end(), in_natural_order);
-  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+    for (SceneFile& file : as_arguments([&] { return expand_scans(argument); }))
+      files.push_back(std::move(file));
+  std::stable_sort(files.begin(), files.end(), [](const SceneFile& a, const SceneFile& b) {
+    return in_natural_order(a.path, b.path);
+  });
+  const auto same = [](const SceneFile& a, const SceneFile& b) { return a.path == b.path; };
+  files.erase(std::unique(files.begin(), files.end(), same), files.end());
   std::vector<SceneEntry> scenes;
-  for (const fs::path& path : paths) {
+  for (SceneFile& file : files) {
     const std::size_t number = scenes.size();
-    scenes.push_back({number, "", {path, 0, static_cast<int>(number), std::nullopt}});
+    file.im_id = static_cast<int>(number);
+    scenes.push_back({number, "", std::move(file)});
   }
   name_scenes(scenes);
   return scenes;
