@@ -11,9 +11,11 @@
 #include <stdexcept>
 
 #include "nodes/formats/format.hpp"
+#include "nodes/layouts/camera_file.hpp"
 #include "nodes/layouts/files.hpp"
 #include "nodes/layouts/layout.hpp"
 #include "nodes/layouts/models_info.hpp"
+#include "nodes/layouts/recording.hpp"
 
 namespace posevote {
 namespace {
@@ -88,6 +90,21 @@ std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted
   return paths;
 }
 
+/// The scans of a folder of depth images with their cameras, of another folder, a file or a glob.
+std::vector<SceneFile> expand_scans(const std::string& argument) {
+  std::error_code is_loop;  // of links
+  const layouts::Recording* recording =
+      fs::is_directory(argument, is_loop) ? layouts::find_recording(argument) : nullptr;
+  if (recording) return recording->frames(argument);
+  std::vector<SceneFile> files;
+  for (fs::path& path : expand(argument, formats::Wanted::kAny)) {
+    const bool image = formats::has_ending(path, formats::Wanted::kDepthImages);
+    const auto camera = image ? layouts::camera_beside(path) : std::nullopt;
+    files.push_back({std::move(path), 0, 0, camera});
+  }
+  return files;
+}
+
 /// Names after the file, with the number in front where two would share a name: of a.off, a.pcd and
 /// 000001_a.ply all three.
 void name_scenes(std::vector<SceneEntry>& scenes) {
@@ -110,17 +127,20 @@ void name_scenes(std::vector<SceneEntry>& scenes) {
 }  // namespace
 
 std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments) {
-  std::vector<fs::path> paths;
+  std::vector<SceneFile> files;
   for (const std::string& argument : arguments)
-    for (fs::path& path : expand(argument, formats::Wanted::kAny)) paths.push_back(std::move(path));
-  std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
-    return layouts::in_natural_order(a.string(), b.string());
+    for (SceneFile& file : as_arguments([&] { return expand_scans(argument); }))
+      files.push_back(std::move(file));
+  std::stable_sort(files.begin(), files.end(), [](const SceneFile& a, const SceneFile& b) {
+    return layouts::in_natural_order(a.path.string(), b.path.string());
   });
-  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+  const auto same = [](const SceneFile& a, const SceneFile& b) { return a.path == b.path; };
+  files.erase(std::unique(files.begin(), files.end(), same), files.end());
   std::vector<SceneEntry> scenes;
-  for (const fs::path& path : paths) {
+  for (SceneFile& file : files) {
     const std::size_t number = scenes.size();
-    scenes.push_back({number, "", {path, 0, static_cast<int>(number), std::nullopt}});
+    file.im_id = static_cast<int>(number);
+    scenes.push_back({number, "", std::move(file)});
   }
   name_scenes(scenes);
   return scenes;

@@ -28,8 +28,9 @@ struct SceneEntry {
   SceneFile file;
 };
 
-/// Files, folders (every file in them that a loader knows) and globs, sorted by path as people count
-/// (scan2 before scan10); scene_id 0 and im_id from that order. Throws std::invalid_argument naming an argument that matches nothing.
+/// Files, folders (a recording of nodes/layouts, with its cameras; else every file in them that a
+/// loader knows) and globs, sorted by path as people count (scan2 before scan10); scene_id 0 and
+/// im_id from that order. Throws std::invalid_argument naming an argument that matches nothing.
 std::vector<SceneEntry> list_scenes(const std::vector<std::string>& arguments);
 
 /// The scans of a data set in any layout of nodes/layouts; of images, with

@@ -18,7 +18,7 @@ namespace posevote {
 /// Pinhole camera of a depth image, as in BOP's `scene_camera.json`.
 struct Camera {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< [pixel]
-  double depth_scale = 1;                 ///< raw depth value x depth_scale = depth in mm
+  double depth_scale = 1;  ///< raw depth value x depth_scale = depth in mm; 0: not said
 };
 
 /// A point file's content.

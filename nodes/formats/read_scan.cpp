@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/formats/read_scan.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <variant>
 
@@ -37,6 +38,16 @@ Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit) {
 DepthImage read_depth_image(const std::filesystem::path& path) {
   const FileBytes bytes = read_file(path);
   return find_reader<ReadDepth>(path, Wanted::kDepthImages)(bytes.view());
+}
+
+std::vector<float> depths_of(const DepthImage& image, double millimetres_per_unit) {
+  if (!image.metres.empty()) return image.metres;
+  std::vector<float> depths(image.values.size());
+  std::transform(image.values.begin(), image.values.end(), depths.begin(),
+                 [millimetres_per_unit](std::uint16_t raw) {
+                   return static_cast<float>(raw * millimetres_per_unit * 0.001);
+                 });
+  return depths;
 }
 
 }  // namespace posevote::formats

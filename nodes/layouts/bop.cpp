@@ -13,5 +13,7 @@ const auto registered = register_layout(
     layout_of(kNames, "BOP",
               "models/models_info.json, SPLIT/NNNNNN/{depth, scene_camera.json, scene_gt.json}"));
 
+const auto scene = register_recording(scene_of(kNames, "BOP scene"));
+
 }  // namespace
 }  // namespace posevote::layouts

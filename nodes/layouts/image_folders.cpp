@@ -170,20 +170,27 @@ bool has_scene_files(const ImageFolders& names, const fs::path& dataset, const s
   return false;
 }
 
+std::vector<SceneFile> images_of(const ImageFolders& names, const fs::path& scene, int scene_id) {
+  const fs::path camera_file = scene / names.cameras;
+  const std::map<int, json> cameras = by_image(names, camera_file);
+  std::vector<SceneFile> images;
+  for (const auto& [im_id, path] : depth_images(scene)) {
+    const auto entry = cameras.find(im_id);
+    if (entry == cameras.end()) fail(camera_file, image_name(im_id) + ": has no camera");
+    const Camera camera =
+        located(camera_file, image_name(im_id), [&] { return read_camera(entry->second); });
+    images.push_back({path, scene_id, im_id, camera});
+  }
+  return images;
+}
+
 std::vector<SceneFile> list_images(const ImageFolders& names, const fs::path& dataset,
                                    const std::string& split) {
   if (!fs::is_directory(dataset / split)) fail(dataset / split, "no such folder");
   std::vector<SceneFile> scenes;
   for (const auto& [scene_id, folder] : scene_folders(dataset / split)) {
-    const fs::path camera_file = folder / names.cameras;
-    const std::map<int, json> cameras = by_image(names, camera_file);
-    for (const auto& [im_id, path] : depth_images(folder)) {
-      const auto entry = cameras.find(im_id);
-      if (entry == cameras.end()) fail(camera_file, image_name(im_id) + ": has no camera");
-      const Camera camera =
-          located(camera_file, image_name(im_id), [&] { return read_camera(entry->second); });
-      scenes.push_back({path, scene_id, im_id, camera});
-    }
+    std::vector<SceneFile> images = images_of(names, folder, scene_id);
+    scenes.insert(scenes.end(), images.begin(), images.end());
   }
   if (scenes.empty()) fail(dataset / split, "no depth image, expected SCENE/depth/IMAGE.png in it");
   return scenes;
@@ -226,6 +233,14 @@ Layout layout_of(const ImageFolders& names, const std::string& name, const std::
     return read_truth(names, dataset, split);
   };
   return layout;
+}
+
+Recording scene_of(const ImageFolders& names, const std::string& name) {
+  return {name, std::string("depth/ and ") + names.cameras,
+          [names](const fs::path& folder) {
+            return fs::exists(folder / names.cameras) && fs::is_directory(folder / "depth");
+          },
+          [names](const fs::path& folder) { return images_of(names, folder, 0); }};
 }
 
 }  // namespace posevote::layouts

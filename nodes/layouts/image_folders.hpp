@@ -6,6 +6,7 @@
 
 #include "nodes/layouts/files.hpp"
 #include "nodes/layouts/layout.hpp"
+#include "nodes/layouts/recording.hpp"
 
 namespace posevote::layouts {
 
@@ -17,5 +18,7 @@ struct ImageFolders {
 
 /// The layout that these names make.
 Layout layout_of(const ImageFolders& names, const std::string& name, const std::string& expected);
+/// One scene's folder of such a set, by itself.
+Recording scene_of(const ImageFolders& names, const std::string& name);
 
 }  // namespace posevote::layouts

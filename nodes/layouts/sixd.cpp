@@ -54,5 +54,7 @@ constexpr ImageFolders kNames{"gt.yml", "info.yml", nullptr, "models_info.yml", 
 const auto registered = register_layout(
     layout_of(kNames, "SIXD 2017", "models/models_info.yml, SPLIT/NN/{depth, info.yml, gt.yml}"));
 
+const auto scene = register_recording(scene_of(kNames, "SIXD 2017 scene"));
+
 }  // namespace
 }  // namespace posevote::layouts

@@ -173,7 +173,8 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
         "a depth image is in its sensor's own frame: load_scene.sensor_pose (--sensor-pose) is for "
         "point files");
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
-  const Camera camera = file.camera.value_or(given);
+  Camera camera = file.camera.value_or(given);
+  if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
   const DepthRange range{params.min_depth, params.max_depth};
   return file.depth ? points_of(*file.depth, camera, range) : read_depth(file.path, camera, range);
 }

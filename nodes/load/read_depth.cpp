@@ -24,8 +24,9 @@ void check_camera(const Camera& camera) {
         "a depth image needs its camera: fx = " + std::to_string(camera.fx) +
         ", fy = " + std::to_string(camera.fy) + ", cx = " + std::to_string(camera.cx) +
         ", cy = " + std::to_string(camera.cy) +
-        " pixels. Set load_scene.fx, fy, cx and cy (as in --set load_scene.fx=572.4), or use a "
-        "data set with scene_camera.json");
+        " pixels. Put a camera.json beside the images ({\"fx\": 572.4, \"fy\": ..., \"cx\": ..., "
+        "\"cy\": ..., \"depth_scale\": mm per unit}), set load_scene.fx, fy, cx and cy (as in "
+        "--set load_scene.fx=572.4), or use a data set with scene_camera.json");
   if (!(camera.depth_scale > 0 && camera.depth_scale <= kMostScale))
     throw std::runtime_error("depth_scale is " + std::to_string(camera.depth_scale) +
                              " mm per unit, expected more than 0 and at most 1e6");
@@ -68,10 +69,8 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
 Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
   check_camera(camera);
   const formats::DepthImage image = formats::read_depth_image(path);
-  LoadedDepth loaded{image.width, image.height, std::vector<float>(image.values.size())};
-  for (std::size_t i = 0; i < image.values.size(); ++i)
-    loaded.depths[i] = static_cast<float>(image.values[i] * camera.depth_scale * 0.001);
-  return points_of(loaded, camera, range);
+  return points_of({image.width, image.height, formats::depths_of(image, camera.depth_scale)},
+                   camera, range);
 }
 
 }  // namespace posevote::load

@@ -160,3 +160,22 @@ TEST_CASE("shards share out all scans and keep their numbers", "[inputs]") {
   for (const char* wrong : {"0/3", "4/3", "1", "a/b", "1/", "-1/2"})
     CHECK_THROWS_AS(take_shard(scenes, wrong), std::invalid_argument);
 }
+
+TEST_CASE("a recording's folder gives its scans with their cameras, beside other files",
+          "[inputs]") {
+  const TemporaryFolder folder;
+  folder.write("tum/depth.txt", "7.5 depth/b.png\n3 depth/a.png\n");
+  folder.write("images/0.npy", "");
+  folder.write("camera.json", R"({"fx": 500, "fy": 510, "cx": 320, "cy": 240})");
+  folder.write("part.ply", "");
+  const auto scenes = list_scenes({(folder / "tum").string(), (folder / "images/0.npy").string(),
+                                   (folder / "part.ply").string()});
+  REQUIRE(scenes.size() == 4);
+  CHECK(scenes[0].file.camera->fx == 500);
+  CHECK_FALSE(scenes[1].file.camera);
+  CHECK(scenes[2].file.camera->depth_scale == 0.2);
+  CHECK(scenes[3].name == "b");
+  CHECK(scenes[3].file.im_id == 3);
+  folder.write("camera.json", "{}");
+  CHECK_THROWS_WITH(list_scenes({(folder / "images").string()}), Catch::Contains("camera.json"));
+}

@@ -82,11 +82,11 @@ RangeImage read_range_image(const layouts::TrueImage& image) {
   try {
     const formats::DepthImage depth = formats::read_depth_image(image.depth);
     RangeImage ranges{0, 0, static_cast<int>(depth.width), static_cast<int>(depth.height), {}};
-    ranges.ranges.reserve(depth.values.size());
-    const double scale = image.camera->depth_scale / 1000;
+    const std::vector<float> depths = formats::depths_of(depth, image.camera->depth_scale);
+    ranges.ranges.reserve(depths.size());
     for (int v = 0; v < ranges.height; ++v)
       for (int u = 0; u < ranges.width; ++u)
-        ranges.ranges.push_back(static_cast<float>(depth.values[ranges.ranges.size()] * scale *
+        ranges.ranges.push_back(static_cast<float>(double{depths[ranges.ranges.size()]} *
                                                    ray_length(*image.camera, u, v)));
     return ranges;
   } catch (const std::runtime_error& error) {

@@ -109,10 +109,12 @@ std::vector<Sample> samples() {
   const std::string faces = "3 0 1 2\n3 1 2 3\n";
   std::vector<std::uint16_t> depths;
   for (int i = 0; i < 80; ++i) depths.push_back(static_cast<std::uint16_t>(i * 701 % 5000));
-  const auto png_check = [](std::string_view bytes) {
-    const formats::DepthImage image =
-        std::get<formats::ReadDepth>(formats::find_format("a.png")->read)(bytes);
-    REQUIRE(image.values.size() == image.width * image.height);
+  const auto depth_check = [](const char* ending) {
+    return [read = std::get<formats::ReadDepth>(formats::find_format(ending)->read)](
+               std::string_view bytes) {
+      const formats::DepthImage image = read(bytes);
+      REQUIRE(std::max(image.values.size(), image.metres.size()) == image.width * image.height);
+    };
   };
   return {{"ascii PLY", ply("ascii") + rows(4, 6) + faces, mesh_check(".ply")},
           {"little-endian PLY", binary_ply(std::endian::little), mesh_check(".ply")},
@@ -128,7 +130,8 @@ std::vector<Sample> samples() {
           {"binary STL", binary_stl(), mesh_check(".stl")},
           {"OFF", "OFF\n4 2 0\n" + rows(4, 3) + faces, mesh_check(".off")},
           {"NOFF", "NOFF\n4 2 0\n" + rows(4, 6) + faces, mesh_check(".off")},
-          {"PNG", depth_png(10, 8, depths), png_check}};
+          {"PNG", depth_png(10, 8, depths), depth_check("a.png")},
+          {"NPY", npy("<u2", "(8, 10)", values(depths)), depth_check("a.npy")}};
 }
 
 /// True if it was taken for a valid file.

@@ -127,6 +127,25 @@ inline std::string depth_png(std::uint32_t width, std::uint32_t height,
   return png_bytes(width, height, 16, 1, samples, interlace);
 }
 
+/// A NumPy array in a file.
+inline std::string npy(const std::string& descr, const std::string& shape, const std::string& data,
+                       const std::string& fortran = "False") {
+  std::string header =
+      "{'descr': '" + descr + "', 'fortran_order': " + fortran + ", 'shape': " + shape + ", }";
+  header.append(64 - (header.size() + 11) % 64, ' ');
+  header += '\n';
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  append(bytes, static_cast<std::uint16_t>(header.size()));
+  return bytes + header + data;
+}
+
+template <class T>
+std::string values(const std::vector<T>& list, std::endian order = std::endian::little) {
+  std::string bytes;
+  for (const T value : list) append(bytes, value, order);
+  return bytes;
+}
+
 /// What every loaded scan must be, however the file looked.
 inline bool is_valid(const Scan& scan) {
   const Eigen::Index n = scan.points.rows();
