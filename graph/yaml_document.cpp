@@ -90,9 +90,4 @@ std::vector<Wire> Reader::wires(const YAML::Node& node, const Location& key,
   return found;
 }
 
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {
-  const std::string near = closest_name(name, known);
-  return near.empty() ? "" : ", did you mean '" + near + "'?";
-}
-
 }  // namespace posevote::graph::detail

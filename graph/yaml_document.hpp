@@ -40,7 +40,4 @@ struct Reader {
                           const std::string& subject) const;
 };
 
-/// ", did you mean 'x'?" or "".
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& known);
-
 }  // namespace posevote::graph::detail
