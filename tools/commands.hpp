@@ -27,7 +27,7 @@ struct RunCommand {
   std::string on_error = "skip";
   std::size_t threads = 0, tokens = 0;
   std::uint64_t seed = 0;
-  bool resume = false, overwrite = false, quiet = false;
+  bool resume = false, overwrite = false, quiet = false, json = false;
 };
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted);
 
@@ -37,7 +37,7 @@ struct TrainCommand {
   std::vector<std::string> models, set;
   std::string out, on_error = "skip";
   std::string model_unit;  ///< empty: as the config says
-  bool report = false;
+  bool report = false, json = false;
 };
 int train_command(const TrainCommand& command);
 
@@ -52,15 +52,15 @@ struct EvaluateCommand {
   double visible = 0.1;
   std::optional<double> min_score;
   int top = 0;
-  bool verbose = false;
+  bool verbose = false, json = false;
 };
 int evaluate_command(const EvaluateCommand& command);
 
 /// `flat`: prints the pipeline with what it extends as one file.
-int check_command(const std::string& config, const std::vector<std::string>& set, bool flat);
-int nodes_command(const std::string& name);
-int graph_command(const std::string& config, const std::vector<std::string>& set);
-int docs_command(const std::string& file);
+int check_command(const std::string& config, const std::vector<std::string>& set, bool flat,
+                  bool json);
+int nodes_command(const std::string& name, bool json);
+int graph_command(const std::string& config, const std::vector<std::string>& set, bool json);
 
 /// A line that can be pasted into a pipeline, with every parameter but experts' at its default.
 std::string example(const graph::NodeSpec& spec);

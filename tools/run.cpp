@@ -18,6 +18,7 @@
 #include "pipelines/library.hpp"
 #include "pipelines/overrides.hpp"
 #include "tools/commands.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/run_record.hpp"
 #include "tools/write_text.hpp"
 
@@ -210,6 +211,7 @@ int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, b
 }  // namespace
 
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
+  const JsonAnswer answer(command.json);
   const Configuration configuration = read_configuration(command);
   if (configuration.scenes.nodes.empty())
     throw std::invalid_argument(command.config +
@@ -237,6 +239,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
       run_scenes(command, configuration, constants, scenes, interrupted);
   std::printf("%zu frames answered, %zu failed; results in %s\n", summary.done, summary.failed,
               command.out.c_str());
+  answer.give({{"answered", summary.done}, {"failed", summary.failed}, {"out", command.out}});
   return exit_status(summary, *library, interrupted);
 }
 

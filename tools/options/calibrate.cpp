@@ -27,6 +27,7 @@ void add_options(CLI::App& app, CalibrateCommand& command) {
       ->type_name("N")
       ->check(CLI::Range(0, 10000));
   add_set(app, command.set);
+  add_json(app, command.json);
 }
 
 const auto registered = register_command<CalibrateCommand>(

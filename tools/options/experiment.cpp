@@ -27,7 +27,7 @@ void add_options(CLI::App& app, ExperimentCommand& command) {
       ->type_name("PATH");
   app.add_option("--out", command.out, "Folder for everything; default out/NAME")->type_name("DIR");
   app.add_option("--methods", command.methods, "Only these, e.g. posevote ransac")
-      ->type_name("NAME");
+      ->type_name("METHOD");
   app.add_option("--every", command.every, "Take one image of so many; of sets of images only")
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
@@ -41,6 +41,7 @@ void add_options(CLI::App& app, ExperimentCommand& command) {
   app.add_option("--sets", command.sets, "Ablation: replicas, CONFIG=DIR for real sets")
       ->type_name("SET");
   app.add_option("--terms", command.terms, "Ablation: only these parameters")->type_name("PARAM");
+  add_json(app, command.json);
   app.add_flag("--quick", command.quick, "A small part of it, to see that it works");
 }
 

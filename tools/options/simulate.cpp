@@ -36,7 +36,8 @@ std::string footer() {
 void add_options(CLI::App& app, Options& options) {
   part::Command& part = options.part;
   app.footer(footer());
-  CLI::Option* spec = app.add_option("spec", options.spec, "What to make (YAML)");
+  CLI::Option* spec =
+      app.add_option("spec", options.spec, "What to make (YAML)")->type_name("FILE");
   app.add_option("--models", part.models, "Meshes of one's own parts to look for")
       ->type_name("FILE")
       ->excludes(spec);
