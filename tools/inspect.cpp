@@ -120,6 +120,8 @@ int check_for_programs(const std::string& config, const std::vector<std::string>
     load_configuration(config, set);
   } catch (const graph::ConfigError& error) {
     problems = error.problems();
+  } catch (const std::invalid_argument& error) {
+    problems.push_back({{config, 0, 0}, "", error.what()});
   }
   answer.give({{"config", config}, {"problems", to_json(problems)}});
   return problems.empty() ? 0 : 2;

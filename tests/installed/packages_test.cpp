@@ -89,7 +89,7 @@ TEST_CASE("the packages hold what runs, and depend on little", "[installed]") {
 TEST_CASE("pip installs the module with all that it needs", "[installed]") {
   const TemporaryFolder folder;
   const std::string python = POSEVOTE_PYTHON;
-  if (run_in(folder, python + " -c 'import pip, setuptools, wheel, venv'").status != 0) {
+  if (run_in(folder, python + " -c 'import setuptools, wheel, venv, pip'").status != 0) {
     WARN("skipped: no pip, setuptools, wheel or venv for " + python);
     return;
   }
