@@ -103,7 +103,7 @@ TEST_CASE("--json prints JSON and nothing else to standard output", "[command_li
 TEST_CASE("every command that prints a table takes --json", "[command_line]") {
   const auto program = make_program();
   for (const char* name : {"bench", "calibrate", "check", "evaluate", "experiment", "graph",
-                           "nodes", "run", "train"}) {
+                           "nodes", "run", "simulate", "train"}) {
     INFO(name);
     CHECK(program->app.get_subcommand(name)->get_option_no_throw("--json"));
   }

@@ -64,6 +64,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--seed", part.seed, "Of arrangements and noise")
       ->check(whole_number(1000000000))
       ->capture_default_str();
+  add_json(app, part.json);
   app.add_flag("--quick", part.quick, "Four scans at each range: a first idea in a minute");
 }
 
