@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "graph/did_you_mean.hpp"
 #include "graph/planner.hpp"
+#include "graph/plugin.hpp"
 
 namespace posevote::graph {
 namespace {
@@ -12,21 +14,15 @@ using Named = const std::pair<const std::string, Setting>*;
 const NodeSpec* find_type(const NodeDescription& node, std::vector<Problem>& problems) {
   const NodeSpec* spec = find_node(node.type);
   if (spec || !node.like.empty()) return spec;  // resolve_likes or the original reports
-  std::vector<std::string> known;
-  for (const NodeSpec* other : all_nodes()) known.push_back(other->name);
-  const std::string near = closest_name(node.type, known);
-  problems.push_back({node.where, node.name,
-                      "unknown node '" + node.type + "', " +
-                          (near.empty() ? "`posevote nodes` lists what there is"
-                                        : "did you mean '" + near + "'?")});
+  problems.push_back({node.where, node.name, unknown_node(node.type)});
   return nullptr;
 }
 
 std::string unknown_parameter(const NodeSpec& spec, const std::string& key) {
   std::vector<std::string> known;
   for (const ParamSpec& param : spec.params) known.push_back(param.name);
-  const std::string near = closest_name(key, known);
-  if (!near.empty()) return "unknown parameter, did you mean '" + near + "'?";
+  const std::string near = did_you_mean(key, known);
+  if (!near.empty()) return "unknown parameter" + near;
   return "unknown parameter, `posevote nodes " + spec.name + "` lists what there is";
 }
 

@@ -2,11 +2,14 @@
 #include "graph/plugin.hpp"
 
 #include <dlfcn.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
+
+#include "graph/registry.hpp"
 
 #ifdef POSEVOTE_ABI
 extern "C" {
@@ -23,7 +26,8 @@ namespace fs = std::filesystem;
 struct Loaded {
   std::mutex mutex;
   std::vector<fs::path> files;
-  std::vector<fs::path> bundled;  ///< those of them that come with the program
+  std::vector<fs::path> bundled;               ///< those of them that come with the program
+  std::map<std::string, std::string> refused;  ///< of those that come with it: why, by their names
 };
 
 Loaded& loaded() {
@@ -31,19 +35,20 @@ Loaded& loaded() {
   return all;
 }
 
-/// Why the loader refused it, in the user's words.
-std::string why_refused(const std::string& message) {
+/// Why the loader refused it, in the user's words. Where another library is missing that it needs,
+/// the message begins with that one's name.
+std::string why_refused(const std::string& message, const fs::path& file) {
   if (message.find("undefined symbol: posevote_abi_") != std::string::npos)
     return "built for another version of posevote; build it anew against this one";
-  const std::size_t colon = message.find(": ");
-  return colon == std::string::npos ? message : message.substr(colon + 2);
+  const std::string own = file.string() + ": ";
+  return message.starts_with(own) ? message.substr(own.size()) : message;
 }
 
 void open_library(const fs::path& file) {
   if (dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return;
   const char* message = dlerror();
   throw std::invalid_argument("the plugin " + file.string() + ": " +
-                              why_refused(message ? message : "it cannot be loaded"));
+                              why_refused(message ? message : "it cannot be loaded", file));
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -72,6 +77,19 @@ void load(const fs::path& file, std::vector<fs::path>* list) {
     throw std::invalid_argument("the plugin " + file.string() + ": it registers no node");
   loaded().files.push_back(path);
   if (list) list->push_back(path);
+}
+
+/// Why a node that comes with the program is not there after all; empty for other names.
+std::string why_missing(const std::string& node) {
+  std::istringstream pairs(POSEVOTE_BUNDLED_NODES);
+  for (std::string name, package; pairs >> name >> package;) {
+    if (name != node) continue;
+    const auto refused = loaded().refused.find("libposevote_" + package);
+    return refused == loaded().refused.end()
+               ? "it comes with the package posevote-" + package + ", which is not installed"
+               : refused->second;
+  }
+  return "";
 }
 
 }  // namespace
@@ -111,6 +129,16 @@ std::vector<fs::path> code_files() {
   return files;
 }
 
+std::string unknown_node(const std::string& name) {
+  const std::string head = "unknown node '" + name + "', ";
+  if (const std::string why = why_missing(name); !why.empty()) return head + why;
+  std::vector<std::string> known;
+  for (const NodeSpec* other : all_nodes()) known.push_back(other->name);
+  const std::string near = closest_name(name, known);
+  return head +
+         (near.empty() ? "`posevote nodes` lists what there is" : "did you mean '" + near + "'?");
+}
+
 namespace detail {
 
 void load_bundled() {
@@ -125,7 +153,7 @@ void load_bundled() {
     for (const fs::path& file : files) try {
         load(file, &loaded().bundled);
       } catch (const std::invalid_argument& error) {
-        spdlog::debug("{}", error.what());
+        loaded().refused[file.stem().string()] = error.what();
       }
   });
 }

@@ -31,13 +31,17 @@ std::filesystem::path this_library();
 /// This library and all that were loaded: the code that results depend on.
 std::vector<std::filesystem::path> code_files();
 
+/// What to say of a node type that is not there: that its library is not installed or lacks another,
+/// where it is one that comes with the program; else the nearest name.
+std::string unknown_node(const std::string& name);
+
 /// The library that `plugins:` names: from the folder of the file where it stands.
 std::string file_of(const Wire& plugin);
 
 namespace detail {
 
 /// Loads the libraries that come with the program, once. One that cannot be loaded, because a
-/// package that it needs is not installed, is left out.
+/// package that it needs is not installed, is left out; unknown_node says so.
 void load_bundled();
 
 /// Runs `load`, which loads a library. Returns the names of its nodes that others have already.

@@ -3,6 +3,9 @@
 
 #include <utility>
 
+#include "graph/did_you_mean.hpp"
+#include "graph/schema.hpp"
+
 namespace posevote::graph {
 namespace {
 
@@ -22,6 +25,11 @@ std::string to_string(const Location& where) {
 std::string to_string(const Problem& problem) {
   const std::string subject = problem.subject.empty() ? "" : problem.subject + ": ";
   return to_string(problem.where) + ": " + subject + problem.text;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {
+  const std::string near = closest_name(name, known);
+  return near.empty() ? "" : ", did you mean '" + near + "'?";
 }
 
 ConfigError::ConfigError(std::vector<Problem> problems)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/did_you_mean.hpp"
 #include "graph/variation.hpp"
 #include "graph/yaml_document.hpp"
 #include "graph/yaml_reader.hpp"
@@ -129,7 +130,7 @@ void read_key(const Reader& reader, const std::string& key, const Location& at,
   } else {
     const std::vector<std::string> known{"extends", "models",  "inputs", "result", "plugins",
                                          "nodes",   "replace", "insert", "remove"};
-    const std::string near = detail::did_you_mean(key, known);
+    const std::string near = did_you_mean(key, known);
     reader.report(
         at, key,
         "unknown key" + (near.empty() ? ", expected extends, models, inputs, result, plugins, "
@@ -192,11 +193,11 @@ class Flattener {
 
   /// The file of what a pipeline extends; "" and a problem where there is none.
   std::string find_base(const Wire& extends) {
-    std::string base = find_(extends.stream, extends.where.file);
-    if (base.empty()) {
-      report(extends.where, "extends",
-             "no pipeline is called '" + extends.stream + "', expected " + extends.stream +
-                 ".yaml beside this one or in pipelines/");
+    std::string base;
+    try {
+      base = find_(extends.stream, extends.where.file);
+    } catch (const std::invalid_argument& error) {
+      report(extends.where, "extends", error.what());
       return "";
     }
     const auto is_base = [&base](const std::string& file) {
@@ -219,7 +220,9 @@ class Flattener {
 
 std::string beside(const std::string& name, const std::string& from) {
   const fs::path file = fs::path(from).parent_path() / (name + ".yaml");
-  return fs::exists(file) ? file.string() : "";
+  if (fs::exists(file)) return file.string();
+  throw std::invalid_argument("no pipeline is called '" + name + "', expected " + name +
+                              ".yaml beside this one");
 }
 
 PipelineDescription read_pipeline(const std::string& file, std::vector<Problem>& problems,

@@ -97,9 +97,4 @@ std::string reason_of(const YAML::Exception& error) {
   return is_deep ? "nested deeper than 500" : error.msg;  // its own text is "bad file"
 }
 
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {
-  const std::string near = closest_name(name, known);
-  return near.empty() ? "" : ", did you mean '" + near + "'?";
-}
-
 }  // namespace posevote::graph::detail

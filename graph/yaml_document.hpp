@@ -43,7 +43,4 @@ struct Reader {
 /// What an exception of yaml-cpp says, without the place.
 std::string reason_of(const YAML::Exception& error);
 
-/// ", did you mean 'x'?" or "".
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& known);
-
 }  // namespace posevote::graph::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "graph/did_you_mean.hpp"
 #include "graph/yaml_document.hpp"
 
 namespace posevote::graph {
@@ -25,7 +26,9 @@ ConfigDescription read_config(const std::string& file, std::vector<Problem>& pro
           return;
         }
         if (!body.IsMap())
-          return reader.report(at, node, "expected the node's parameters, as in {unit: mm}");
+          return reader.report(at, node,
+                               "expected the node's parameters, as in {unit: mm}" +
+                                   did_you_mean(node, {"pipeline", "plugins"}));
         reader.for_each(
             body, node,
             [&](const std::string& key, const Location& where, const YAML::Node& value) {

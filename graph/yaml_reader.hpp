@@ -11,8 +11,8 @@
 
 namespace posevote::graph {
 
-/// The file of the pipeline called `name` where another file, `from`, names it; "" if there is
-/// none.
+/// The file of the pipeline called `name` where another file, `from`, names it. Throws
+/// std::invalid_argument if there is none.
 using FindPipeline = std::function<std::string(const std::string& name, const std::string& from)>;
 /// NAME.yaml in the folder of `from`.
 std::string beside(const std::string& name, const std::string& from);

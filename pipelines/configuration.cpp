@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/did_you_mean.hpp"
 #include "graph/plugin.hpp"
 #include "graph/yaml_reader.hpp"
 #include "pipelines/installed.hpp"
@@ -20,13 +21,27 @@ using graph::Override;
 using graph::PipelineDescription;
 using graph::Problem;
 
+/// Names of the YAML files in folders; of those that are there.
+std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const fs::path& folder : folders)
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, missing))
+      if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  return names;
+}
+
 /// "uwa" -> the project's configs/uwa.yaml, unless a file of that name is here. A data set's folder
 /// may well be called so.
 std::string find_config(const std::string& config) {
   const fs::path own = shared_folder() / "configs" / (config + ".yaml");
   const bool is_name = config.find('/') == std::string::npos;
   const bool is_here = fs::exists(config) && !fs::is_directory(config);
-  return is_name && !is_here && fs::exists(own) ? own.string() : config;
+  if (!is_name || is_here) return config;
+  if (fs::exists(own)) return own.string();
+  const std::string near = graph::did_you_mean(config, names_in({own.parent_path()}));
+  throw std::invalid_argument(config + ": no such file" +
+                              (near.empty() ? ", and no config is called so" : near));
 }
 
 /// Pipelines stand beside the config, in ../pipelines from there, or in the project.
@@ -39,6 +54,18 @@ std::string find_pipeline(const std::string& name, const std::string& config) {
   return "";
 }
 
+/// As find_pipeline, but says what is wrong where there is none.
+std::string need_pipeline(const std::string& name, const std::string& config) {
+  const std::string file = find_pipeline(name, config);
+  if (!file.empty()) return file;
+  const fs::path folder = fs::path(config).parent_path();
+  const std::string near = graph::did_you_mean(
+      name, names_in({folder, folder / ".." / "pipelines", shared_folder() / "pipelines"}));
+  throw std::invalid_argument(
+      "no pipeline is called '" + name + "'" +
+      (near.empty() ? ", expected " + name + ".yaml beside the file or in pipelines/" : near));
+}
+
 /// What finds the pipeline again from anywhere: its name, or the path of one of the user's own.
 std::string lasting_name(const PipelineDescription& pipeline) {
   const fs::path file = pipeline.where.file;
@@ -48,12 +75,14 @@ std::string lasting_name(const PipelineDescription& pipeline) {
 
 PipelineDescription read_named(const std::string& name, const graph::Location& where,
                                const std::string& config, std::vector<Problem>& problems) {
-  const std::string file = find_pipeline(name, config);
-  if (!file.empty()) return graph::read_pipeline(file, problems, find_pipeline);
-  problems.push_back({where, "",
-                      "no pipeline is called '" + name + "', expected " + name +
-                          ".yaml beside the config or in pipelines/"});
-  return {};
+  std::string file;
+  try {
+    file = need_pipeline(name, config);
+  } catch (const std::invalid_argument& error) {
+    problems.push_back({where, "", error.what()});
+    return {};
+  }
+  return graph::read_pipeline(file, problems, need_pipeline);
 }
 
 std::vector<std::string> node_names(const PipelineDescription& a, const PipelineDescription& b) {
@@ -70,11 +99,10 @@ void apply(PipelineDescription& scenes, PipelineDescription& models,
   if (scenes.nodes.empty() && models.nodes.empty()) return;  // the pipeline could not be read
   for (const Override& change : left) {
     if (change.node.empty()) continue;  // a malformed --set, reported
-    const std::string near = graph::closest_name(change.node, node_names(scenes, models));
     problems.push_back({change.setting.where, change.node + "." + change.key,
                         "no such node in the pipeline '" +
                             (scenes.nodes.empty() ? models : scenes).name + "'" +
-                            (near.empty() ? "" : ", did you mean '" + near + "'?")});
+                            graph::did_you_mean(change.node, node_names(scenes, models))});
   }
 }
 
@@ -99,7 +127,7 @@ PipelineDescription read_wiring(const std::string& config, const std::string& pi
     if (!pipeline.empty())
       throw std::invalid_argument("--pipeline " + pipeline + ": " + file +
                                   " is a pipeline itself, expected a config");
-    return graph::read_pipeline(file, problems, find_pipeline);
+    return graph::read_pipeline(file, problems, need_pipeline);
   }
   graph::ConfigDescription description = graph::read_config(file, problems);
   if (!pipeline.empty()) {

@@ -69,6 +69,11 @@ void add_set(CLI::App& app, std::vector<std::string>& set) {
       ->allow_extra_args(false);
 }
 
+void add_json(CLI::App& app, bool& json) {
+  app.add_flag("--json", json,
+               "Print JSON instead of tables, and nothing else, to standard output");
+}
+
 CLI::Option* add_unit(CLI::App& app, const std::string& name, std::string& unit,
                       const std::string& help) {
   std::string units;

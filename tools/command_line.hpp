@@ -53,6 +53,9 @@ constexpr std::uint64_t kMostThreads = 1024;
 /// The option --set.
 void add_set(CLI::App& app, std::vector<std::string>& set);
 
+/// The flag --json; JsonAnswer (tools/json_answer.hpp) is what it asks for.
+void add_json(CLI::App& app, bool& json);
+
 /// An option that names a unit of length.
 CLI::Option* add_unit(CLI::App& app, const std::string& name, std::string& unit,
                       const std::string& help);

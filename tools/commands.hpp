@@ -27,7 +27,7 @@ struct RunCommand {
   std::string on_error = "skip";
   std::size_t threads = 0, tokens = 0;
   std::uint64_t seed = 0;
-  bool resume = false, overwrite = false, quiet = false, verbose = false;
+  bool resume = false, overwrite = false, quiet = false, verbose = false, json = false;
   bool lines = true;  ///< for each frame of a small run
 };
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted);
@@ -38,7 +38,7 @@ struct TrainCommand {
   std::vector<std::string> models, set;
   std::string out, on_error = "skip";
   std::string model_unit;  ///< empty: as the config says
-  bool report = false, quiet = false;
+  bool report = false, quiet = false, json = false;
 };
 int train_command(const TrainCommand& command);
 
@@ -53,7 +53,7 @@ struct EvaluateCommand {
   double visible = 0.1;
   std::optional<double> min_score;
   int top = 0;
-  bool verbose = false;
+  bool verbose = false, json = false;
 };
 int evaluate_command(const EvaluateCommand& command);
 
@@ -62,12 +62,12 @@ struct InspectCommand {
   std::string config, pipeline;
   std::vector<std::string> set;
   bool flat = false;  ///< prints the pipeline with what it extends as one file
+  bool json = false;
 };
 int check_command(const InspectCommand& command);
 int graph_command(const InspectCommand& command);
 int configs_command(bool json);
-int nodes_command(const std::string& name);
-int docs_command(const std::string& file);
+int nodes_command(const std::string& name, bool json);
 
 /// A line that can be pasted into a pipeline, with every parameter but experts' at its default.
 std::string example(const graph::NodeSpec& spec);

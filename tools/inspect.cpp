@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that look and do not run: check, nodes, graph, docs.
+// Commands that look and do not run: check, nodes, graph; and the reference of nodes.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -7,11 +7,13 @@
 #include <map>
 #include <stdexcept>
 
+#include "graph/plugin.hpp"
 #include "graph/registry.hpp"
 #include "graph/yaml_reader.hpp"
 #include "pipelines/configuration.hpp"
 #include "tools/commands.hpp"
-#include "tools/write_text.hpp"
+#include "tools/inspect_json.hpp"
+#include "tools/json_answer.hpp"
 
 namespace posevote {
 namespace {
@@ -108,7 +110,27 @@ std::string example(const NodeSpec& spec) {
   return text + "}";
 }
 
+namespace {
+
+/// The problems are the answer that a program wants.
+int check_for_programs(const InspectCommand& command) {
+  const JsonAnswer answer(true);
+  std::vector<graph::Problem> problems;
+  try {
+    load_configuration(command.config, command.set, {}, command.pipeline);
+  } catch (const graph::ConfigError& error) {
+    problems = error.problems();
+  } catch (const std::invalid_argument& error) {
+    problems.push_back({{command.config, 0, 0}, "", error.what()});
+  }
+  answer.give({{"config", command.config}, {"problems", to_json(problems)}});
+  return problems.empty() ? 0 : 2;
+}
+
+}  // namespace
+
 int check_command(const InspectCommand& command) {
+  if (command.json) return check_for_programs(command);
   const Configuration configuration =
       load_configuration(command.config, command.set, {}, command.pipeline);
   if (command.flat) {
@@ -122,23 +144,28 @@ int check_command(const InspectCommand& command) {
   return 0;
 }
 
-int nodes_command(const std::string& name) {
+int nodes_command(const std::string& name, bool json) {
+  const JsonAnswer answer(json);
+  if (name.empty() && json) return answer.give(to_json(graph::all_nodes())), 0;
   if (name.empty()) {
     for (const NodeSpec* spec : graph::all_nodes())
       std::printf("%-22s %s\n", spec->name.c_str(), spec->doc.c_str());
     return 0;
   }
-  if (const NodeSpec* spec = graph::find_node(name)) return print_node(*spec), 0;
-  std::vector<std::string> known;
-  for (const NodeSpec* spec : graph::all_nodes()) known.push_back(spec->name);
-  const std::string near = graph::closest_name(name, known);
-  throw std::invalid_argument("no node is called '" + name + "'" +
-                              (near.empty() ? "" : ", did you mean '" + near + "'?"));
+  const NodeSpec* spec = graph::find_node(name);
+  if (spec && json) return answer.give(to_json(*spec)), 0;
+  if (spec) return print_node(*spec), 0;
+  throw std::invalid_argument(graph::unknown_node(name));
 }
 
 int graph_command(const InspectCommand& command) {
+  const JsonAnswer answer(command.json);
   const Configuration configuration =
       load_configuration(command.config, command.set, {}, command.pipeline);
+  if (command.json)
+    return answer.give({{"models", to_json(configuration.models)},
+                        {"scenes", to_json(configuration.scenes)}}),
+           0;
   std::cout << graph::to_dot({&configuration.models, &configuration.scenes});
   return 0;
 }
@@ -187,12 +214,6 @@ std::string node_reference() {
   for (const auto& [folder, sections] : folders) text += "## " + folder + "\n\n" + sections;
   text.pop_back();
   return text;
-}
-
-int docs_command(const std::string& file) {
-  write_text(file, node_reference());
-  std::cout << "wrote " << file << "\n";
-  return 0;
 }
 
 }  // namespace posevote

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line: its subcommands register themselves (tools/command_line.hpp).
+// The command line: its subcommands register themselves (tools/command_line.hpp), tools/program.hpp
+// makes one tree of them.
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <stdexcept>
 
 #include "graph/plugin.hpp"
 #include "graph/problem.hpp"
-#include "graph/schema.hpp"
-#include "pipelines/recognizer.hpp"
 #include "tools/command_line.hpp"
+#include "tools/program.hpp"
 #include "tools/progress/console.hpp"
 
 namespace {
@@ -43,18 +44,35 @@ int run(const std::function<int()>& command) {
 
 /// A misspelt command is told with the one that was meant.
 int refuse_without_command(const CLI::App& app) {
-  std::vector<std::string> known;
-  for (const CommandEntry& entry : all_commands()) known.push_back(entry.name);
   const std::vector<std::string> left = app.remaining();
   if (left.empty()) {
     std::cerr << app.help();
     return 2;
   }
-  const std::string near = graph::closest_name(left.front(), known);
+  const std::string near = meant(app, left.front());
   std::cerr << "no command is called '" << left.front() << "'"
-            << (near.empty() ? "; `posevote --help` lists them" : ", did you mean '" + near + "'?")
-            << "\n";
+            << (near.empty() ? "; `posevote --help` lists them" : near) << "\n";
   return 2;
+}
+
+/// Options that the command does not have; words too many, where there is none.
+int refuse_extras(const CLI::App& app, std::vector<std::string> extras) {
+  std::erase(extras, "--");
+  const auto is_word = [](const std::string& text) { return !text.starts_with("-"); };
+  if (!std::all_of(extras.begin(), extras.end(), is_word)) std::erase_if(extras, is_word);
+  const std::string command = "posevote " + app.get_subcommands().front()->get_name();
+  for (const std::string& text : extras)
+    std::cerr << command << ": "
+              << (is_word(text) ? "nothing is expected at '" + text + "'"
+                                : "no option is called '" + text + "'" + meant(app, text))
+              << "\n";
+  std::cerr << "`" << command << " --help` lists what there is\n";
+  return 2;
+}
+
+/// Whether something is left that the command does not know. It is told before what is missing.
+bool has_extras(const CLI::App& app) {
+  return !app.get_subcommands().empty() && app.remaining_size(true) > 0;
 }
 
 }  // namespace
@@ -63,28 +81,19 @@ int main(int argc, char** argv) {
   keep_memory();
   console::begin();
   remember_command(argc, argv);
-  CLI::App app("posevote finds known 3D objects in 3D scans.");
-  app.set_version_flag("--version", "posevote " + version());
-  std::vector<std::string> plugins;
-  app.add_option("--plugin", plugins, "A shared library with nodes of one's own (repeatable)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  app.require_subcommand(0, 1);
-  app.allow_extras();
-  std::function<int()> chosen;
-  for (const CommandEntry& entry : all_commands()) {
-    CLI::App* command = app.add_subcommand(entry.name, entry.help);
-    command->fallthrough();  // so that --plugin may stand behind it
-    command->callback([&chosen, run_it = entry.add(*command)] { chosen = run_it; });
-  }
+  const std::unique_ptr<Program> program = make_program();
+  CLI::App& app = program->app;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    const bool is_answer = error.get_exit_code() == 0;  // --help and --version
+    if (!is_answer && has_extras(app)) return refuse_extras(app, app.remaining(true));
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (!chosen) return refuse_without_command(app);
+  if (!program->chosen) return refuse_without_command(app);
+  if (has_extras(app)) return refuse_extras(app, app.remaining(true));
   return run([&] {
-    for (const std::string& plugin : plugins) graph::load_plugin(plugin);
-    return chosen();
+    for (const std::string& plugin : program->plugins) graph::load_plugin(plugin);
+    return program->chosen();
   });
 }

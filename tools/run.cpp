@@ -19,6 +19,7 @@
 #include "pipelines/overrides.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/progress/frame_report.hpp"
 #include "tools/run_record.hpp"
 #include "tools/text.hpp"
@@ -177,6 +178,7 @@ int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, b
 }  // namespace
 
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
+  const JsonAnswer answer(command.json);
   const Configuration configuration = read_configuration(command);
   if (configuration.scenes.nodes.empty())
     throw std::invalid_argument(command.config +
@@ -210,6 +212,10 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
             << " found; results in " << printable(command.out) << "\n"
             << std::flush;
   if (interrupted) tell_interrupted(command, scenes.size(), summary);
+  answer.give({{"answered", summary.done},
+               {"failed", summary.failed},
+               {"found", found},
+               {"out", command.out}});
   return exit_status(summary, *library, interrupted);
 }
 

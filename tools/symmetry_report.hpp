@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "nodes/data/model.hpp"
@@ -9,5 +10,9 @@ namespace posevote {
 
 /// The motions that carry a model onto itself, exactly or nearly, a line each; for `train --report`.
 std::string symmetry_report(const Model& model);
+
+/// The same: rotations as 9 numbers row by row, directions and points in the model's frame, lengths
+/// in m; of near symmetries the share of the surface that tells.
+nlohmann::ordered_json symmetry_json(const Model& model);
 
 }  // namespace posevote

@@ -145,7 +145,7 @@ TEST_CASE("what is wrong with a variant is said where it stands", "[extends]") {
   const Folder f;
   f.check_one("extends: bse\nremove: [add]\n",
               "variant.yaml:1:10: extends: no pipeline is called 'bse', expected bse.yaml beside "
-              "this one or in pipelines/");
+              "this one");
   f.check_one("extends: base\nremove: [swalow]\n",
               "variant.yaml:2:10: swalow: no such node in the pipeline that this one extends, did "
               "you mean 'swallow'?");

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What other programs use, as it is after `cmake --install`: the program away from its sources, the
 // library, plugins and the Python module, each by a worked example.
-#include <sys/wait.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
-#include "tests/support/command.hpp"
+#include "tests/installed/shell.hpp"
 
 using namespace posevote;
 using namespace posevote::test;
@@ -31,15 +28,7 @@ struct Installed {
     REQUIRE(done.status == 0);
   }
 
-  /// In `folder`, with a cache of its own.
-  CommandResult run(const std::string& command) const {
-    const fs::path log = folder / "log.txt";
-    const int status = std::system(("cd '" + folder.path().string() +
-                                    "' && export XDG_CACHE_HOME=$PWD/cache && (" + command +
-                                    ") > '" + log.string() + "' 2>&1")
-                                       .c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(log)};
-  }
+  CommandResult run(const std::string& command) const { return run_in(folder, command); }
   CommandResult posevote(const std::string& arguments) const {
     return run("'" + (prefix / "bin/posevote").string() + "' " + arguments);
   }
@@ -62,11 +51,6 @@ struct Installed {
 const Installed& installed() {
   static const Installed once;
   return once;
-}
-
-bool contains(const CommandResult& result, const std::string& text) {
-  INFO(result.output);
-  return result.output.find(text) != std::string::npos;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ TEST_CASE("two benches are compared method by method and stage by stage", "[benc
                       "ransac": {"train_s": 1, "online_s": 3, "stages_s": {}}})");
   const std::string after = folder.write(
       "new.json", R"({"posevote": {"train_s": 2, "online_s": 0.25, "stages_s": {"match": 0.3}}})");
-  const std::string text = compare_benches(before, after);
+  const std::string text = to_table(compare_benches(before, after));
   INFO(text);
   CHECK(text.find("posevote                              500.0      250.0     0.50") !=
         std::string::npos);

@@ -63,11 +63,12 @@ int ablation_experiment(const ExperimentCommand& command, const fs::path& out,
   for (const TestSet& set : find_sets(command, out)) {
     add_outcomes(table, ablation::ablate(set, command.terms, out / "cache", interrupted));
     sets.push_back(set);
+    write_text(out / "ablation.json", ablation::to_json(sets, table).dump(1) + "\n");
     write_text(out / "ablation.csv", ablation::to_csv(sets, table));
     write_text(out / "ablation.md", ablation::to_markdown(sets, table));
     if (interrupted) break;
   }
-  std::printf("%s\nwrote %s.{csv,md}\n", ablation::to_markdown(sets, table).c_str(),
+  std::printf("%s\nwrote %s.{json,csv,md}\n", ablation::to_markdown(sets, table).c_str(),
               (out / "ablation").c_str());
   return interrupted ? 130 : 0;
 }

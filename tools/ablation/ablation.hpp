@@ -15,7 +15,7 @@
 
 namespace posevote {
 
-/// Prints a table and writes it as BASE.csv and BASE.md. Status 130 where it was interrupted.
+/// Prints a table and writes it as BASE.json, BASE.csv and BASE.md. Status 130 where it was interrupted.
 int ablation_experiment(const ExperimentCommand& command, const std::filesystem::path& out,
                         const std::atomic<bool>& interrupted);
 
@@ -41,6 +41,7 @@ std::vector<Row> ablate(const TestSet& set, const std::vector<std::string>& term
 
 /// A table of all rows, each compared with the first.
 std::string to_markdown(const std::vector<TestSet>& sets, const std::vector<Row>& rows);
+nlohmann::ordered_json to_json(const std::vector<TestSet>& sets, const std::vector<Row>& rows);
 std::string to_csv(const std::vector<TestSet>& sets, const std::vector<Row>& rows);
 
 }  // namespace ablation

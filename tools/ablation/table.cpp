@@ -60,4 +60,21 @@ std::string to_csv(const std::vector<TestSet>& sets, const std::vector<Row>& row
   return text;
 }
 
+nlohmann::ordered_json to_json(const std::vector<TestSet>& sets, const std::vector<Row>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    for (const Row& row : rows) {
+      const Outcome& outcome = row.outcomes.at(s);
+      list.push_back({{"set", sets[s].name},
+                      {"term", row.term},
+                      {"change", row.change},
+                      {"value", row.value},
+                      {"instances", outcome.instances},
+                      {"correct", outcome.correct},
+                      {"false", outcome.wrong},
+                      {"seconds", outcome.seconds}});
+    }
+  return list;
+}
+
 }  // namespace posevote::ablation

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tools/bench/contestant.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -47,21 +48,24 @@ void print_methods(const nlohmann::ordered_json& methods) {
 }  // namespace
 
 int bench_command(const BenchCommand& command) {
+  const JsonAnswer answer(command.json);
   if (!command.compare.empty()) {
-    std::fputs(compare_benches(command.compare.at(0), command.compare.at(1)).c_str(), stdout);
+    const auto comparison = compare_benches(command.compare.at(0), command.compare.at(1));
+    if (!command.json) std::fputs(to_table(comparison).c_str(), stdout);
+    answer.give(comparison);
     return 0;
   }
   if (!command.growth.empty()) {
-    bench_growth(command);
+    answer.give(bench_growth(command));
     return 0;
   }
   if (command.models.empty() || command.scenes.empty())
     throw std::invalid_argument("expected --models FILE... and --scenes FILE...");
+  const std::vector<Method> chosen = find_methods(command.methods);
   const ModelFiles models = list_models(command.models);
   const std::vector<SceneEntry> scenes = list_scenes(command.scenes);
   std::vector<Contestant> contestants;
-  for (const Method& method : find_methods(command.methods))
-    contestants.push_back(make_contestant(command, method));
+  for (const Method& method : chosen) contestants.push_back(make_contestant(command, method));
   for (int turn = 0; turn < command.repeat; ++turn) {
     std::fprintf(stderr, "turn %d of %d\n", turn + 1, command.repeat);
     for (Contestant& contestant : contestants) {
@@ -72,8 +76,11 @@ int bench_command(const BenchCommand& command) {
   nlohmann::ordered_json methods = nlohmann::ordered_json::object();
   for (const Contestant& contestant : contestants)
     methods[contestant.method.name] = to_json(contestant);
-  for (const auto& [name, result] : methods.items()) print_stages(name, result);
-  print_methods(methods);
+  answer.give(methods);
+  if (!command.json) {
+    for (const auto& [name, result] : methods.items()) print_stages(name, result);
+    print_methods(methods);
+  }
   if (command.out.empty()) return 0;
   write_text(command.out, methods.dump(2) + "\n");
   return 0;

@@ -234,7 +234,7 @@ nlohmann::ordered_json to_json(const std::vector<Curve>& curves) {
 
 }  // namespace
 
-void bench_growth(const BenchCommand& command) {
+nlohmann::ordered_json bench_growth(const BenchCommand& command) {
   const std::vector<Quantity> chosen = choose(command.growth);
   const std::string base = command.out.empty() ? "out/growth" : command.out;
   const Bench bench(command, base + "_input");
@@ -250,6 +250,7 @@ void bench_growth(const BenchCommand& command) {
   }
   const nlohmann::ordered_json rows = to_json(curves);
   write_report(base, rows.dump(1) + "\n", to_csv(rows), plot::to_svg(charts));
+  return rows;
 }
 
 }  // namespace posevote

@@ -10,6 +10,7 @@
 #include "tools/commands.hpp"
 #include "tools/evaluate/calibration.hpp"
 #include "tools/experiment/test_set.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -67,7 +68,7 @@ std::vector<Verdict> cross_validated(const Poses& poses) {
   return verdicts;
 }
 
-void print(const std::vector<Verdict>& verdicts) {
+nlohmann::ordered_json print(const std::vector<Verdict>& verdicts) {
   int right = 0, believed = 0, both = 0;
   for (const Verdict& verdict : verdicts) {
     right += verdict.correct;
@@ -79,6 +80,11 @@ void print(const std::vector<Verdict>& verdicts) {
       "%zu poses, %d right; of images that the weights have not seen, at 0.5: %d believed, "
       "%d of them right; expected calibration error %.3f\n",
       verdicts.size(), right, believed, both, calibration ? calibration->error : 0);
+  return {{"poses", verdicts.size()},
+          {"right", right},
+          {"believed", believed},
+          {"believed_and_right", both},
+          {"ece", calibration ? calibration->error : 0}};
 }
 
 std::string to_yaml(const Logistic& fitted) {
@@ -96,6 +102,7 @@ std::string to_yaml(const Logistic& fitted) {
 }  // namespace
 
 int calibrate_command(const CalibrateCommand& command, const std::atomic<bool>& interrupted) {
+  const JsonAnswer answer(command.json);
   Poses all;
   int scene_offset = 0;  // images of different sets are different ones
   for (const std::string& text : command.sets) {
@@ -109,8 +116,13 @@ int calibrate_command(const CalibrateCommand& command, const std::atomic<bool>& 
     scene_offset += 1 << 20;
   }
   if (all.empty()) throw std::invalid_argument("nothing was found; expected poses to judge");
-  print(cross_validated(all));
-  const std::string yaml = to_yaml(fit(all));
+  nlohmann::ordered_json json = print(cross_validated(all));
+  const Logistic fitted = fit(all);
+  json["confidence_offset"] = fitted.offset;
+  for (std::size_t i = 0; i < kClueCount; ++i)
+    json["confidence_" + std::string(kClueNames[i])] = fitted.weights[Eigen::Index(i)];
+  answer.give(json);
+  const std::string yaml = to_yaml(fitted);
   const fs::path file = fs::path(command.out) / "confidence.yaml";
   write_text(file, yaml);
   std::printf("%swrote %s\n", yaml.c_str(), file.string().c_str());

@@ -5,6 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "graph/did_you_mean.hpp"
+#include "graph/schema.hpp"
+
 namespace posevote {
 namespace {
 
@@ -86,19 +89,20 @@ const std::vector<Rule>& all_rules() {
 std::vector<Rule> choose_rules(const std::string& list) {
   if (list == "all") return all_rules();
   std::vector<Rule> chosen;
-  std::string known;
-  for (const Rule& rule : all_rules()) known += (known.empty() ? "" : ", ") + rule.name;
+  std::vector<std::string> known{"all"};
+  for (const Rule& rule : all_rules()) known.push_back(rule.name);
   std::istringstream stream(list);
   for (std::string name; std::getline(stream, name, ',');) {
     const std::size_t before = chosen.size();
     for (const Rule& rule : all_rules())
       if (rule.name == name) chosen.push_back(rule);
     if (chosen.size() == before)
-      throw std::invalid_argument(
-          "--rules: '" + std::string(name).append("' is no rule, expected all or some of ") +
-          known);
+      throw std::invalid_argument("--rules: '" +
+                                  std::string(name).append("' is no rule, expected some of ") +
+                                  graph::join_list(known) + graph::did_you_mean(name, known));
   }
-  if (chosen.empty()) throw std::invalid_argument("--rules: expected some of " + known);
+  if (chosen.empty())
+    throw std::invalid_argument("--rules: expected some of " + graph::join_list(known));
   return chosen;
 }
 

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
+#include "graph/did_you_mean.hpp"
+#include "graph/plugin.hpp"
 #include "graph/registry.hpp"
 #include "tools/ablation/ablation.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/write_text.hpp"
 
 namespace posevote {
@@ -28,28 +32,40 @@ const std::vector<Method> kPeers = {
     {"pcl_geometric_consistency", "geometric_consistency", kPclFeatures},
     {"textbook_density", "recognize", {"estimate_density.node=textbook_density"}}};
 
+/// A rival's pipeline is called as its node.
+bool is_missing(const Method& method) {
+  return method.pipeline != "recognize" && !graph::find_node(method.pipeline);
+}
+
 std::vector<Method> methods_of_this_build() {
   std::vector<Method> methods = kMethods;
-  if (!graph::find_node("opencv_ppf"))
-    std::erase_if(methods, [](const Method& method) { return method.name == "opencv_ppf"; });
+  std::erase_if(methods, is_missing);
   return methods;
 }
 
 }  // namespace
 
 std::vector<Method> find_methods(const std::vector<std::string>& wanted) {
-  std::vector<Method> known = methods_of_this_build();
-  if (wanted.empty()) return known;
+  if (wanted.empty()) return methods_of_this_build();
+  std::vector<Method> known = kMethods;
   known.insert(known.end(), kPeers.begin(), kPeers.end());
   std::vector<Method> methods;
   for (const std::string& name : wanted) {
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const Method& method) { return method.name == name; });
     if (found == known.end()) {
+      std::vector<std::string> names;
       std::string text = "--methods " + name + ": no such method, expected one of";
-      for (const Method& method : known) text.append(" ").append(method.name);
+      for (const Method& method : known) {
+        text.append(" ").append(method.name);
+        names.push_back(method.name);
+      }
+      text += graph::did_you_mean(name, names);
       throw std::invalid_argument(text);
     }
+    if (is_missing(*found))
+      throw std::invalid_argument("--methods " + name + ": " +
+                                  graph::unknown_node(found->pipeline));
     methods.push_back(*found);
   }
   return methods;
@@ -93,12 +109,27 @@ void write_report(const std::filesystem::path& base, const std::string& json,
   std::printf("wrote %s.{json,csv,svg}\n", base.c_str());
 }
 
-int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted) {
-  const std::filesystem::path out = command.out.empty() ? "out/" + command.name : command.out;
+namespace {
+
+int run_experiment(const ExperimentCommand& command, const std::filesystem::path& out,
+                   const std::atomic<bool>& interrupted) {
   if (command.name == "calibration") return calibration_experiment(command, out);
   if (command.name == "ablation") return ablation_experiment(command, out, interrupted);
   return command.name == "sensitivity" ? sensitivity_experiment(command, out, interrupted)
                                        : recognition_experiment(command, out, interrupted);
+}
+
+}  // namespace
+
+int experiment_command(const ExperimentCommand& command, const std::atomic<bool>& interrupted) {
+  const JsonAnswer answer(command.json);
+  const std::filesystem::path out = command.out.empty() ? "out/" + command.name : command.out;
+  const int status = run_experiment(command, out, interrupted);
+  if (command.json && status <= 1) {
+    std::ifstream table(out / (command.name + ".json"));
+    answer.give(nlohmann::ordered_json::parse(table));
+  }
+  return status;
 }
 
 }  // namespace posevote

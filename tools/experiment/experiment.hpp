@@ -17,7 +17,7 @@ struct ExperimentCommand {
   std::string out;                   ///< empty: out/NAME
   std::vector<std::string> methods;  ///< empty: all
   std::size_t every = 0;             ///< one image of so many; 0: all, or what `quick` says
-  bool quick = false;
+  bool quick = false, json = false;
   std::vector<double> scales;      ///< of ranges: fixed resolutions to compare with [m]
   std::vector<std::string> runs;   ///< of calibration: DATASET=RESULTS
   std::string rule;                ///< of calibration; empty: add

@@ -12,11 +12,12 @@ void add_options(CLI::App& app, BenchCommand& command) {
       "  posevote bench --growth all --repeat 3 --out growth\n"
       "  posevote bench --compare old.json new.json");
   app.add_option("config", command.config, "A file, or a name from configs/")
+      ->type_name("CONFIG")
       ->capture_default_str();
   app.add_option("--models", command.models, "Model files, folders or globs")->type_name("FILE");
   app.add_option("--scenes", command.scenes, "Scan files, folders or globs")->type_name("FILE");
   app.add_option("--methods", command.methods, "Only these, e.g. posevote ransac")
-      ->type_name("NAME");
+      ->type_name("METHOD");
   add_set(app, command.set);
   app.add_option("--repeat", command.repeat, "Turns; the figures are medians")
       ->check(CLI::PositiveNumber)
@@ -25,14 +26,16 @@ void add_options(CLI::App& app, BenchCommand& command) {
       ->check(whole_number(kMostThreads))
       ->capture_default_str();
   app.add_option("--out", command.out, "Also write the figures as JSON")->type_name("FILE");
+  add_json(app, command.json);
   app.add_option("--growth", command.growth,
                  "How time and memory grow with points, models, correspondences, rotations, "
                  "threads, or all of them, on scans that it makes; --out names the files "
                  "without their ending")
-      ->type_name("WHAT");
-  app.add_option("--compare", command.compare, "Run nothing; compare two files of --out")
+      ->type_name("all|points|models|correspondences|rotations|threads");
+  app.add_option("--compare", command.compare,
+                 "Run nothing; compare two files of --out, the older one first")
       ->expected(2)
-      ->type_name("OLD NEW");
+      ->type_name("FILE");
 }
 
 const auto registered = register_command<BenchCommand>(

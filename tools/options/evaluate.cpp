@@ -20,13 +20,16 @@ void add_options(CLI::App& app, EvaluateCommand& command) {
       "a "
       "results.csv),\nthe share whose true error lies within its 95 % ellipsoid.");
   app.add_option("dataset", command.dataset, "A data set: BOP, SIXD 2017, UWA or Queen's")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   app.add_option("results", command.results, "The results.csv or results.json of a run on it")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   app.add_option("--split", command.split, "Split of the data set")->capture_default_str();
-  app.add_option("--rules", command.rules, "When a pose is right: rules, or all")
+  app.add_option("--rules", command.rules,
+                 "When a pose is right: rules with commas between, or all")
       ->default_str("pose,drost,add,adi15")
-      ->type_name("RULE,...");
+      ->type_name("RULE");
   app.add_option("--visible", command.visible, "Leave out instances less visible")
       ->check(number_in(0, 1))
       ->capture_default_str();
@@ -40,6 +43,7 @@ void add_options(CLI::App& app, EvaluateCommand& command) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--out", command.out, "Folder for tables (CSV, JSON) and plots (SVG)")
       ->type_name("DIR");
+  add_json(app, command.json);
   app.add_flag("--verbose", command.verbose, "List all instances, however many");
 }
 

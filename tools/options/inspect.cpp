@@ -7,16 +7,19 @@ namespace {
 
 void add_options(CLI::App& app, InspectCommand& command) {
   app.add_option("config", command.config, "A file, or a name that `posevote configs` lists")
-      ->required();
+      ->required()
+      ->type_name("CONFIG");
   app.add_option("--pipeline", command.pipeline, "Other wiring than the config's")
-      ->type_name("NAME");
+      ->type_name("PIPELINE");
   add_set(app, command.set);
+  add_json(app, command.json);
 }
 
 const auto check = register_command<InspectCommand>(
     "check", "Report every problem of a config at once",
     [](CLI::App& app, InspectCommand& command) {
       add_options(app, command);
+      app.footer("Exit status: 0 the config is fine, 2 it is not.");
       app.add_flag("--flat", command.flat, "Print the pipeline, with what it extends, as one file");
     },
     check_command);
@@ -27,19 +30,20 @@ const auto graph_registered = register_command<InspectCommand>(
 
 const auto configs = register_command<bool>(
     "configs", "List the configs and pipelines that can be named",
-    [](CLI::App& app, bool& json) { app.add_flag("--json", json, "As JSON"); }, configs_command);
+    [](CLI::App& app, bool& json) { add_json(app, json); }, configs_command);
 
-const auto nodes = register_command<std::string>(
+struct Named {
+  std::string name;
+  bool json = false;
+};
+
+const auto nodes = register_command<Named>(
     "nodes", "List the node types, or explain one",
-    [](CLI::App& app, std::string& name) { app.add_option("name", name, "Node type"); },
-    nodes_command);
-
-const auto docs = register_command<std::string>(
-    "docs", "Write the reference of all nodes",
-    [](CLI::App& app, std::string& file) {
-      app.add_option("file", file, "The file to write")->default_val("nodes/README.md");
+    [](CLI::App& app, Named& named) {
+      app.add_option("name", named.name, "Node type")->type_name("NODE");
+      add_json(app, named.json);
     },
-    docs_command);
+    [](const Named& named) { return nodes_command(named.name, named.json); });
 
 }  // namespace
 }  // namespace posevote

@@ -46,6 +46,7 @@ void add_options(CLI::App& app, RunCommand& command) {
       "130 Ctrl-C.");
   app.add_option("config", command.config,
                  "A file, or a name that `posevote configs` lists (demo, uwa, bop ...)")
+      ->type_name("CONFIG")
       ->capture_default_str();
   app.add_option("--models", command.models, "Model files, folders or globs")->type_name("FILE");
   app.add_option("--scenes", command.scenes, "Scan files, folders or globs")->type_name("FILE");
@@ -53,13 +54,15 @@ void add_options(CLI::App& app, RunCommand& command) {
                  "A data set (BOP, SIXD 2017, UWA, Queen's): its models and its scans")
       ->type_name("DIR");
   app.add_option("--split", command.split, "Split of the data set")->capture_default_str();
-  app.add_option("--out", command.out, "Folder for the results")->capture_default_str();
+  app.add_option("--out", command.out, "Folder for the results")
+      ->type_name("DIR")
+      ->capture_default_str();
   add_format(app, command);
   app.add_option("--library", command.library, "A library from `posevote train`, not --models")
       ->type_name("FILE");
   app.add_option("--pipeline", command.pipeline,
                  "Other wiring than the config's, as `posevote configs` lists (ransac ...)")
-      ->type_name("NAME");
+      ->type_name("PIPELINE");
   add_frames(app, command);
   add_set(app, command.set);
   app.add_option("--threads", command.threads, "Threads; 0: all cores")
@@ -84,6 +87,7 @@ void add_options(CLI::App& app, RunCommand& command) {
   app.add_option("--on-error", command.on_error, "After a model or a frame that fails")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
+  add_json(app, command.json);
   CLI::Option* quiet = app.add_flag("--quiet", command.quiet, "Only errors and the last line");
   app.add_flag("-v,--verbose", command.verbose,
                "What was found and measured in every frame, and what each node took")

@@ -36,7 +36,8 @@ std::string footer() {
 void add_options(CLI::App& app, Options& options) {
   part::Command& part = options.part;
   app.footer(footer());
-  CLI::Option* spec = app.add_option("spec", options.spec, "What to make (YAML)");
+  CLI::Option* spec =
+      app.add_option("spec", options.spec, "What to make (YAML)")->type_name("FILE");
   app.add_option("--models", part.models, "Meshes of one's own parts to look for")
       ->type_name("FILE")
       ->excludes(spec);
@@ -63,6 +64,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--seed", part.seed, "Of arrangements and noise")
       ->check(whole_number(1000000000))
       ->capture_default_str();
+  add_json(app, part.json);
   app.add_flag("--quick", part.quick, "Four scans at each range: a first idea in a minute");
 }
 

@@ -6,7 +6,12 @@ namespace posevote {
 namespace {
 
 void add_options(CLI::App& app, TrainCommand& command) {
+  app.footer(
+      "Example:\n  posevote train --models parts/*.stl --out parts.library\n\n"
+      "Exit status: 0 done, 1 models were left out or it failed on the way, 2 wrong usage, config "
+      "or input.");
   app.add_option("config", command.config, "The config that the runs will use")
+      ->type_name("CONFIG")
       ->capture_default_str();
   app.add_option("--models", command.models, "Model files, folders or globs")
       ->required()
@@ -17,6 +22,7 @@ void add_options(CLI::App& app, TrainCommand& command) {
       ->capture_default_str();
   app.add_flag("--quiet", command.quiet, "No line that shows how far it is");
   app.add_flag("--report", command.report, "List the symmetries of each model, exact and near");
+  add_json(app, command.json);
   add_unit(app, "--model-unit", command.model_unit, "Unit of length in model files");
   add_set(app, command.set);
 }

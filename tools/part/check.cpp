@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
 #include "nodes/geometry/extent.hpp"
 #include "pipelines/inputs.hpp"
 #include "tools/commands.hpp"
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/part/part.hpp"
 #include "tools/simulate/own_mesh.hpp"
 #include "tools/simulate/sensor_file.hpp"
@@ -84,6 +86,7 @@ void print_range(const Tally& tally) {
 }  // namespace
 
 int check(const Command& given, const std::atomic<bool>& interrupted) {
+  const JsonAnswer answer(given.json);
   constexpr int kQuickScans = 4;
   Command command = given;
   if (command.quick) command.scans = std::min(command.scans, kQuickScans);
@@ -115,6 +118,10 @@ int check(const Command& given, const std::atomic<bool>& interrupted) {
   }
   std::printf("%s", to_text(tally, command).c_str());
   write(tally, command);
+  if (given.json) {
+    std::ifstream written(fs::path(command.out) / "recall.json");
+    answer.give(nlohmann::ordered_json::parse(written));
+  }
   return worst;
 }
 

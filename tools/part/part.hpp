@@ -24,7 +24,7 @@ struct Command {
   int scans = 16;               ///< of each range
   double precision = 0.99;      ///< that is wanted of what is believed
   int seed = 1;
-  bool quick = false;
+  bool quick = false, json = false;
   std::string out;
 };
 
