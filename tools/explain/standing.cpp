@@ -82,17 +82,19 @@ Around votes_around(const segment::LiveVotes& object, const Eigen::Isometry3d& T
 
 /// The scan as the instances that were found left it; those that were doubtful took points, too.
 void take_out_found(const SearchWatch& search, const Taps& taps, const poses::SegmentParams& params,
-                    poses::ScanState& scan) {
+                    std::size_t object, const Alike& alike, poses::ScanState& scan) {
   const auto take = [&](const poses::Instance& one) {
+    const bool counted = one.candidate.confidence >= params.min_confidence;
+    // A doubtful one near the pose is the pose itself.
+    if (!counted && one.object == object && alike.is_near(one.candidate.T_scene_model)) return;
     const Model& model = taps.votes[one.object].model->at(scan.resolution);
     const poses::InstanceParams rules = poses::instance_params(params, model, scan.resolution);
-    const bool counts = one.candidate.confidence >= params.min_confidence;
     const bool took =
         one.candidate.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
         one.candidate.score() >= params.min_score;
-    if (!counts && !took) return;
+    if (!counted && !took) return;
     scan.take_out(model, one.candidate.T_scene_model, rules.explained_distance);
-    if (counts)
+    if (counted)
       scan.usual_residual.add(one.candidate.fit, scan.range_of(model, one.candidate.T_scene_model));
   };
   for (const poses::Instance& one : search.instances().found) take(one);
@@ -105,11 +107,9 @@ Bench::Bench(const Taps& of, const SearchWatch& watched)
     : taps(of),
       search(watched),
       params(of.run.segmentation()),
-      whole(*of.cloud, *of.features, of.scale.resolution, params.terms),
-      left(*of.cloud, *of.features, of.scale.resolution, params.terms) {
+      whole(*of.cloud, *of.features, of.scale.resolution, params.terms) {
   for (std::size_t i = 0; i < taps.votes.size(); ++i)
     objects.push_back(segment::all_votes(taps.votes[i], taps.densities[i]));
-  take_out_found(search, taps, params, left);
 }
 
 void Bench::count_features(std::size_t object, const poses::Sought& sought,
@@ -220,6 +220,8 @@ Standing Bench::stand(std::size_t object, const Eigen::Isometry3d& T_scene_model
     standing.peaks = standing.way.front().of;
   }
   standing.judged = judge(object, whole, standing, standing.T_refined);
+  poses::ScanState left(*taps.cloud, *taps.features, taps.scale.resolution, params.terms);
+  take_out_found(search, taps, params, object, alike, left);
   Eigen::Isometry3d T_left;
   standing.left = judge(object, left, standing, T_left);
   standing.moved = alike.distance(standing.T_refined);

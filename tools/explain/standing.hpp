@@ -51,7 +51,7 @@ struct Standing {
   std::optional<double> near_same;  ///< distance of the next found one of its kind [m]
 };
 
-/// The scan as it was at the beginning, and as the found instances left it.
+/// Judges poses of a scan as it was at the beginning, and as the found instances left it.
 class Bench {
  public:
   /// Keeps references.
@@ -63,7 +63,7 @@ class Bench {
   const SearchWatch& search;
   const poses::SegmentParams& params;
   std::vector<segment::LiveVotes> objects;
-  poses::ScanState whole, left;
+  poses::ScanState whole;
 
  private:
   Judged judge(std::size_t object, const poses::ScanState& scan, const Standing& standing,
