@@ -87,7 +87,7 @@ struct FoundObject {
   double confidence = 0;    ///< in [0, 1]: the probability that it is right
   Matrix4 T_scene_model{};  ///< [m]
   /// 6 x 6, row by row, of the pose error xi: T_true = T_scene_model exp(xi), where xi is a twist in
-  /// the model's frame, about its origin: a rotation vector [rad], then a translation [m]. What
+  /// the model's frame, about its origin: a translation [m], then a rotation vector [rad]. What
   /// nothing holds, as the turn of a can, has a large variance. Empty where the pose was not refined.
   std::optional<std::array<double, 36>> covariance;
   /// Turns about the model's own frame after which it looks the same; the pose times any of them

@@ -25,8 +25,8 @@ struct Detection {
   double inlier_fraction = 0;  ///< of the model points that face the sensor, those on scene points
   double rmse = 0;             ///< point-to-plane, over the inliers [m]
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
-  /// Of the pose error xi, a twist in the model's frame (its turn [rad] first, then its translation
-  /// [m]): T_true = T_scene_model exp(xi). Empty-handed of a pose that was not refined.
+  /// Of the pose error xi, a twist in the model's frame (its translation [m] first, then its turn
+  /// [rad]): T_true = T_scene_model exp(xi). Empty-handed of a pose that was not refined.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance{};
   double seconds = 0;     ///< that the search for it took (poses/object_search.hpp)
   Symmetries symmetries;  ///< of the model: poses that look the same

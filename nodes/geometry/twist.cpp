@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Equations after Sola, Deray, Atchuthan, A micro Lie theory for state estimation in robotics
-// (2018), (172) to (174), with the turn first.
+// (2018), (172) to (174).
 #include "nodes/geometry/twist.hpp"
 
 #include <cmath>
@@ -27,13 +27,14 @@ Vector6d log_motion(const Eigen::Isometry3d& motion) {
     second = (1 - half / std::tan(half)) / (turn.angle() * turn.angle());
   }
   Vector6d twist;
-  twist << turn.angle() * turn.axis(),
-      motion.translation() - W * motion.translation() / 2 + second * W * (W * motion.translation());
+  twist << motion.translation() - W * motion.translation() / 2 +
+               second * W * (W * motion.translation()),
+      turn.angle() * turn.axis();
   return twist;
 }
 
 Eigen::Isometry3d exp_motion(const Vector6d& twist) {
-  const Eigen::Vector3d turn = twist.head<3>(), shift = twist.tail<3>();
+  const Eigen::Vector3d shift = twist.head<3>(), turn = twist.tail<3>();
   const double angle = turn.norm();
   const Eigen::Matrix3d W = cross_matrix(turn);
   double first = 0.5, second = 1.0 / 6;

@@ -6,7 +6,7 @@
 
 namespace posevote::geometry {
 
-/// A turn, as a rotation vector [rad], then a translation [m]: the twist whose exponential a motion
+/// A translation [m], then a turn, as a rotation vector [rad]: the twist whose exponential a motion
 /// is. In a covariance, rows and columns come in this order.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

@@ -136,13 +136,13 @@ double noise_of(const Sought& sought, const std::vector<geometry::IcpPair>& pair
   return kNormal * *middle;
 }
 
-/// From the centre, with turns in units of the lever, to the model's origin, with turns in rad.
+/// From (lever x turn, shift) of the centre to (shift, turn in rad) of the model's origin.
 Matrix6d about_origin(const Matrix6d& covariance, const Eigen::Vector3d& center, double lever) {
   Matrix6d A = Matrix6d::Zero();
-  A.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() / lever;
-  A.bottomRightCorner<3, 3>().setIdentity();
+  A.bottomLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() / lever;
+  A.topRightCorner<3, 3>().setIdentity();
   for (int i = 0; i < 3; ++i)  // shift of the origin = shift of the centre - turn x centre
-    A.block<3, 1>(3, i) = -Eigen::Vector3d::Unit(i).cross(center) / lever;
+    A.block<3, 1>(0, i) = -Eigen::Vector3d::Unit(i).cross(center) / lever;
   const Matrix6d moved = A * covariance * A.transpose();
   return (moved + moved.transpose()) / 2;
 }

@@ -38,11 +38,11 @@ double surprise(const TruthSet& set, const Found& found) {
 
 }  // namespace
 
-TEST_CASE("a pose error is measured by its covariance, the turn first", "[evaluate]") {
+TEST_CASE("a pose error is measured by its covariance, the translation first", "[evaluate]") {
   const TruthSet set;
   Found found;
-  found.error << 0, 0.02, 0, 0.01, 0, 0;
-  found.covariance.diagonal() << 1, 0.01 * 0.01, 1, 0.02 * 0.02, 1, 1;
+  found.error << 0.01, 0, 0, 0, 0.02, 0;
+  found.covariance.diagonal() << 0.02 * 0.02, 1, 1, 1, 0.01 * 0.01, 1;
   CHECK(surprise(set, found) == Approx(2 * 2 + 0.5 * 0.5));
   found.covariance(1, 1) = 0;  // no covariance
   CHECK(std::isnan(surprise(set, found)));
@@ -52,7 +52,7 @@ TEST_CASE("what a symmetry carries onto the truth is no error", "[evaluate]") {
   const TruthSet set;
   Found found;
   found.obj_id = 2;  // looks the same after half a turn about z through (0.01, 0, 0)
-  found.error << 0, 0, M_PI, 0, -M_PI * 0.01, 0;
+  found.error << 0, -M_PI * 0.01, 0, 0, 0, M_PI;
   found.covariance *= 1e-6;
   CHECK(surprise(set, found) == Approx(0).margin(1e-6));
 }
@@ -67,7 +67,7 @@ TEST_CASE("a turn about an axis of symmetry is no error, between steps either", 
   Found found;
   found.covariance *= 1e-6;
   for (const double turn : {0.009, 0.5, 2.345}) {
-    found.error << turn, 0, 0, 0.001, 0, 0;
+    found.error << 0.001, 0, 0, turn, 0, 0;
     CHECK(surprise(set, found) == Approx(1).epsilon(0.01));
   }
 }

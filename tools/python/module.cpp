@@ -196,7 +196,7 @@ PYBIND11_MODULE(_posevote, module) {
           "4 x 4, metres: takes a point of the model's file to the scan's frame.")
       .def_property_readonly(
           "covariance", &covariance,
-          "6 x 6, of xi in T_true = T exp(xi): a rotation vector [rad], then a translation [m], in "
+          "6 x 6, of xi in T_true = T exp(xi): a translation [m], then a rotation vector [rad], in "
           "the model's frame, about its origin. None: the pose was not refined.")
       .def_property_readonly(
           "symmetries",

@@ -35,8 +35,8 @@ for found in from_depth:
 truth = np.linalg.inv(T_box_camera)
 assert len(from_depth) == 1 and np.linalg.norm((from_depth[0].T - truth)[:3, 3]) < 0.001
 assert len(from_depth[0].symmetries) == 4  # a box looks the same after half turns
-C = from_depth[0].covariance  # of xi in T_true = T @ exp(xi): a rotation vector, a translation
-assert C.shape == (6, 6) and np.linalg.eigvalsh(C).min() > 0 and np.sqrt(C[3:, 3:].max()) < 0.005
+C = from_depth[0].covariance  # of xi in T_true = T @ exp(xi): a translation, a rotation vector
+assert C.shape == (6, 6) and np.linalg.eigvalsh(C).min() > 0 and np.sqrt(C[:3, :3].max()) < 0.005
 assert from_depth[0].seconds > 0
 assert min(np.abs(from_depth[0].T @ turn - truth).max() for turn in from_depth[0].symmetries) < 0.02
 
