@@ -80,6 +80,20 @@ TEST_CASE("a run's page holds scans, models, true poses, votes and the command l
   CHECK_THAT(text, Contains("run demo --dataset " + viewed().dataset.string()));
 }
 
+TEST_CASE("a page says why each object was found or not, where it is asked to", "[view]") {
+  const CommandResult made = viewed().view("--explain");
+  INFO(made.output);
+  REQUIRE(made.status == 0);
+  const nlohmann::json page = viewed().page();
+  for (const int scan : {0, 1}) {
+    const nlohmann::json& objects = page["scans"][scan]["explained"]["objects"];
+    REQUIRE(objects.size() >= page["scans"][scan]["found"].size());
+    CHECK(objects[0]["cause"] == "found");
+    CHECK_FALSE(objects[0]["says"].empty());
+  }
+  CHECK_THAT(page["scans"][2]["explained"].dump(), Contains("PNG"));
+}
+
 TEST_CASE("a page says which models were never found", "[view]") {
   const CommandResult made = viewed().view("--scans 000001_000001");
   INFO(made.output);

@@ -25,6 +25,9 @@ void add_page_options(CLI::App& app, ReportCommand& command) {
          "Show the pose votes of this object, by name or obj_id, coloured by their density; "
          "each scan is run again up to them")
       ->type_name("OBJECT");
+  app.add_flag("--explain", command.explain,
+               "Say of each object why it was found or not (posevote explain); each scan is run "
+               "again");
   app.add_flag("--open", command.open, "Show the page (xdg-open)");
 }
 

@@ -40,7 +40,7 @@ void collect(const fs::path& folder, const fs::path& top, int depth, std::vector
 /// Shares the page among all scans: a fifth goes to the models and to what is said of the scans.
 page::RunView make_view(const ReportCommand& command, const std::vector<Place>& places) {
   constexpr std::size_t kFewest = 1000, kMost = 80000;  // points of a scan
-  page::RunView view{0, 4000, command.votes, command.scans};
+  page::RunView view{0, 4000, command.votes, command.scans, command.explain};
   std::size_t scans = 0, runs = 0;
   for (const Place& place : places)
     if (holds_run(place.folder)) {
@@ -61,7 +61,7 @@ void check_scans(const ReportCommand& command, const std::vector<Place>& places)
     std::size_t count = 0;
     for (const Place& place : places)
       if (holds_run(place.folder))
-        count += page::count_scans(read_run(place.folder), {0, 0, "", {name}});
+        count += page::count_scans(read_run(place.folder), {0, 0, "", {name}, false});
     if (count == 0)
       throw std::invalid_argument("--scans " + name + ": " + command.folder +
                                   " has no scan of that name");

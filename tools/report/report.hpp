@@ -19,6 +19,7 @@ struct ReportCommand {
   page::TruthSource truth;
   std::string votes;               ///< name or obj_id of an object; empty: none
   std::vector<std::string> scans;  ///< only these, by name; empty: all
+  bool explain = false;            ///< why each object was found or not
   bool open = false;
 };
 int report_command(const ReportCommand& command);

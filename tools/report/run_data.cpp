@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "graph/parallel.hpp"
 #include "pipelines/library.hpp"
+#include "tools/explain/explain.hpp"
 #include "tools/report/html.hpp"
 #include "tools/report/model_list.hpp"
 #include "tools/report/shown_scan.hpp"
@@ -130,6 +132,30 @@ std::vector<Shown> list_frames(const RunResults& run, const RunInputs& inputs, c
   return frames;
 }
 
+std::map<int, std::vector<Eigen::Isometry3d>> true_poses(const RunInputs& inputs,
+                                                         const ScanName& scan) {
+  std::map<int, std::vector<Eigen::Isometry3d>> poses;
+  for (const layouts::TrueInstance& truth : inputs.truths(scan.file, scan.scene_id, scan.im_id))
+    poses[truth.obj_id].push_back(truth.T_scene_model);
+  return poses;
+}
+
+/// Why each object was found or not, by object and instance.
+void explain_scans(const std::filesystem::path& folder, const RunInputs& inputs, ModelList& models,
+                   std::vector<Shown>& frames) {
+  const explain::Run run = explain::open_run(folder);
+  for (auto& [json, scan] : frames) {
+    const explain::Explanation all = explain::explain(run, json["name"].get<std::string>(),
+                                                      {"", true_poses(inputs, scan), false});
+    Json list = Json::array();
+    for (const explain::Explained& object : all.objects)
+      list.push_back({{"model", models.number_of(object.obj_id, object.model)},
+                      {"cause", explain::name_of(object.verdict.cause)},
+                      {"says", object.sentences}});
+    json["explained"] = {{"scan", all.sentences}, {"objects", list}};
+  }
+}
+
 /// The packed bytes of each frame, beside its JSON.
 std::string show_scans(std::vector<Shown>& frames, const RunInputs& inputs, const RunView& view,
                        const VotesWanted* votes, const std::string& id) {
@@ -152,10 +178,11 @@ std::size_t count_scans(const RunResults& run, const RunView& view) {
   return count;
 }
 
-std::string run_markup(const RunResults& run, RunInputs& inputs, const RunView& view,
-                       const std::string& id) {
+std::string run_markup(const std::filesystem::path& folder, const RunResults& run,
+                       RunInputs& inputs, const RunView& view, const std::string& id) {
   ModelList models(inputs.models(), run.left_out);
   std::vector<Shown> frames = list_frames(run, inputs, view, models);
+  if (view.explain) explain_scans(folder, inputs, models, frames);
   VotesWanted votes;
   if (!view.votes.empty()) {
     votes.obj_id = models.obj_id_of(view.votes);

@@ -18,15 +18,17 @@ struct RunView {
   std::size_t faces = 4000;        ///< of each model, at most
   std::string votes;               ///< name or obj_id of an object; empty: none
   std::vector<std::string> scans;  ///< only those of these names; empty: all
+  bool explain = false;            ///< say of each object why it was found or not
 };
 
 /// Frames of a run, answered or failed, that `view` takes in.
 std::size_t count_scans(const RunResults& run, const RunView& view);
 
-/// Markup that the viewer fills. `id`: unique on the page. Throws std::invalid_argument where
-/// votes are asked for of an object that there is not, or the models are gone.
-std::string run_markup(const RunResults& run, RunInputs& inputs, const RunView& view,
-                       const std::string& id);
+/// Markup that the viewer fills, of the run in `folder`. `id`: unique on the page. Throws
+/// std::invalid_argument where votes or explanations are asked for of an object that there is not,
+/// or the models are gone.
+std::string run_markup(const std::filesystem::path& folder, const RunResults& run,
+                       RunInputs& inputs, const RunView& view, const std::string& id);
 
 /// JSON that can stand in a <script>: ASCII, and nothing in it that could end the element.
 std::string script_json(const nlohmann::ordered_json& json);

@@ -191,7 +191,7 @@ html::Section run_section(const fs::path& folder, const std::string& where,
                           const std::string& id) {
   const RunResults run = read_run(folder);
   page::RunInputs inputs(folder, truth);
-  const std::string viewer = page::run_markup(run, inputs, view, id);
+  const std::string viewer = page::run_markup(folder, run, inputs, view, id);
   return {where.empty() ? "Run" : where, summary(run) + left_out(run) + notes(inputs) + viewer +
                                              models(run, inputs) + stages(run) + failures(run) +
                                              command_lines(inputs.records()) + parameters(folder)};

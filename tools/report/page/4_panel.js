@@ -111,6 +111,16 @@ posevote.panel = (() => {
     return [make('h4', {}, 'Not found'), make('p', {className: 'missing-models'}, names.join(', '))];
   }
 
+  /// Why each object was found or not, where that was asked for.
+  function explained(run, scan) {
+    if (!scan.explained) return [];
+    const of = (object) => make('details', {className: 'explained'},
+        make('summary', {}, make('b', {}, run.models[object.model].name), `: ${object.cause}`),
+        ...says(object));
+    return [make('h4', {}, 'Why'), ...says({says: scan.explained.scan}),
+            ...scan.explained.objects.map(of)];
+  }
+
   function times(scan) {
     const stages = Object.entries(scan.stages || {}).sort((a, b) => b[1] - a[1]);
     const longest = stages.length ? stages[0][1] : 1;
@@ -136,7 +146,7 @@ posevote.panel = (() => {
         children.push(make('h4', {}, 'Found'), make('p', {}, 'nothing'));
       if (kind === 'found') children.push(...missing(run, scan));
     }
-    children.push(times(scan));
+    children.push(...explained(run, scan), times(scan));
     panel.replaceChildren(...children.filter((child) => child));
     panel.scrollTop = 0;
   }
