@@ -121,7 +121,9 @@ int check_for_programs(const InspectCommand& command) {
   } catch (const graph::ConfigError& error) {
     problems = error.problems();
   } catch (const std::invalid_argument& error) {
-    problems.push_back({{command.config, 0, 0}, "", error.what()});
+    graph::Problem& only = problems.emplace_back();
+    only.where.file = command.config;
+    only.text = error.what();
   }
   answer.give({{"config", command.config}, {"problems", to_json(problems)}});
   return problems.empty() ? 0 : 2;
