@@ -17,7 +17,7 @@ graph::Registration<Params> register_descriptor(
   auto registration = graph::register_node(std::move(name), function, std::move(doc), source);
   registration.input("cloud").input("points").input("scale").output("features");
   registration.param("radius", &Params::radius, "x resolution",
-                     "Neighbours within this are described.", graph::greater_than(0));
+                     "Neighbours within this are described.", graph::in_range(0.1, 200));
   registration.param("min_neighbours", &Params::min_neighbours, "",
                      "A feature point with fewer is left out.", graph::at_least(least_neighbours));
   return registration;

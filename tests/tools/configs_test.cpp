@@ -36,3 +36,13 @@ TEST_CASE("check and graph take another pipeline", "[configs]") {
   CHECK_THAT(run_posevote(folder, "check demo --flat --pipeline ransac").output,
              Contains("ransac:") && !Contains("cast_pairs:"));
 }
+
+TEST_CASE("no descriptor takes a radius that its library cannot count with", "[configs]") {
+  const TemporaryFolder folder;
+  const CommandResult run = run_posevote(
+      folder,
+      "check default --set describe_scene.node=describe_usc --set describe_scene.radius=1e30 "
+      "--set describe_models.node=describe_usc --set describe_models.radius=1e30");
+  CHECK(run.status == 2);
+  CHECK_THAT(run.output, Contains(".radius = 1e30: must be in [0.1, 200]"));
+}
