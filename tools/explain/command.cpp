@@ -6,6 +6,7 @@
 
 #include "nodes/formats/file_bytes.hpp"
 #include "nodes/formats/sensor_pose.hpp"
+#include "nodes/formats/units.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 #include "pipelines/inputs.hpp"
 #include "tools/explain/picture.hpp"
@@ -17,11 +18,14 @@ namespace {
 
 using explain::Explanation;
 
-Eigen::Isometry3d read_pose(const std::string& file) {
+/// A pose, in metres, from a file in another unit.
+Eigen::Isometry3d read_pose(const std::string& file, const std::string& unit) {
   try {
     const std::vector<double> numbers = formats::read_pose_numbers(formats::read_file(file).view());
     if (numbers.size() != 16) throw std::runtime_error("expected 16 numbers, a matrix row by row");
-    return formats::sensor_pose(numbers);
+    Eigen::Isometry3d pose = formats::sensor_pose(numbers);
+    pose.translation() *= formats::metres_per(unit);
+    return pose;
   } catch (const std::runtime_error& error) {
     const std::string what = error.what();
     throw std::invalid_argument(what.starts_with(file) ? what : file + ": " + what);
@@ -35,7 +39,7 @@ void read_truth(const ExplainCommand& command, const explain::Run& run,
       throw std::invalid_argument("--truth " + command.truth + ": say of which --object");
     for (const auto& model : run.library->models)
       if (model->name == command.object || std::to_string(model->obj_id) == command.object)
-        request.truth[model->obj_id].push_back(read_pose(command.truth));
+        request.truth[model->obj_id].push_back(read_pose(command.truth, command.truth_unit));
   }
   if (command.dataset.empty()) return;
   const layouts::GroundTruth truth = as_arguments(

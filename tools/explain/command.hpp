@@ -10,7 +10,7 @@ namespace posevote {
 
 /// Options of `explain`, named as on the command line.
 struct ExplainCommand {
-  std::string out, scene, object, dataset, truth, picture;
+  std::string out, scene, object, dataset, truth, truth_unit = "m", picture;
   std::vector<std::string> models;
   bool attempt = false, json = false;
   std::size_t threads = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/units.hpp"
 #include "tools/command_line.hpp"
 #include "tools/explain/command.hpp"
 
@@ -25,8 +26,11 @@ void add_options(CLI::App& app, ExplainCommand& command) {
   app.add_option("--dataset", command.dataset, "The data set of the run, for its true poses")
       ->type_name("DIR");
   app.add_option("--truth", command.truth,
-                 "The true T_scene_model of --object: 16 numbers, row by row, in metres")
+                 "The true T_scene_model of --object: 16 numbers, row by row")
       ->type_name("FILE");
+  app.add_option("--truth-unit", command.truth_unit, "Unit of length in --truth")
+      ->check(CLI::IsMember(formats::length_units()))
+      ->capture_default_str();
   app.add_option("--models", command.models, "The models, where the run did not record them")
       ->type_name("FILE");
   app.add_flag("--try", command.attempt, "Run again with settings that may help, and say which do");
