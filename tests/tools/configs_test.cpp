@@ -44,5 +44,6 @@ TEST_CASE("no descriptor takes a radius that its library cannot count with", "[c
       "check default --set describe_scene.node=describe_usc --set describe_scene.radius=1e30 "
       "--set describe_models.node=describe_usc --set describe_models.radius=1e30");
   CHECK(run.status == 2);
-  CHECK_THAT(run.output, Contains(".radius = 1e30: must be in [0.1, 200]"));
+  CHECK_THAT(run.output,
+             Contains("describe_models.radius: '1e30' is not allowed, must be in [0.1, 200]"));
 }

@@ -64,10 +64,10 @@ TEST_CASE("no two scans have one name", "[inputs]") {
 
 TEST_CASE("what a folder holds beside what can be read is counted", "[inputs]") {
   const TemporaryFolder folder;
-  for (const char* name : {"a.tiff", "b.tiff", "c.npy", "a.json", "a.pose", ".hidden.x"})
+  for (const char* name : {"a.tiff", "b.tiff", "c.xyz", "a.json", "a.pose", ".hidden.x"})
     folder.write(name, "");
   CHECK_THROWS_WITH(list_scenes({folder.path().string()}),
-                    Catch::EndsWith(" file in it, but 1 file .npy, 2 files .tiff"));
+                    Catch::EndsWith(" file in it, but 2 files .tiff, 1 file .xyz"));
 }
 
 TEST_CASE("an argument that matches nothing is named", "[inputs]") {

@@ -25,8 +25,12 @@ const auto check = register_command<InspectCommand>(
     check_command);
 
 const auto graph_registered = register_command<InspectCommand>(
-    "graph", "Print the wiring as Graphviz DOT: posevote graph uwa | dot -Tpng > uwa.png",
-    add_options, graph_command);
+    "graph", "Print the wiring as Graphviz DOT",
+    [](CLI::App& app, InspectCommand& command) {
+      add_options(app, command);
+      app.footer("Example:\n  posevote graph uwa | dot -Tpng > uwa.png");
+    },
+    graph_command);
 
 const auto configs = register_command<bool>(
     "configs", "List the configs and pipelines that can be named",

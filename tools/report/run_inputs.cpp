@@ -139,9 +139,11 @@ std::map<int, Mesh> RunInputs::load_surfaces() {
       surfaces[obj_id] = {object.points, PointMatrix(0, 3), object.faces};
   if (!configuration_) return surfaces;
   try {
-    if (!record_.library.empty())
-      for (const auto& model : library()->models)
+    if (!record_.library.empty()) {
+      const auto trained = library();
+      for (const auto& model : trained->models)
         surfaces[model->obj_id] = points_alone(model->cloud.points);
+    }
   } catch (const std::exception& error) {
     notes_.emplace_back(error.what());
   }

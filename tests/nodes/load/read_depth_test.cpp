@@ -75,7 +75,7 @@ TEST_CASE("Depth image: limits", "[load][depth]") {
 
 TEST_CASE("Depth image: a camera that cannot be", "[load][depth]") {
   const std::string image = depth_png(2, 1, {1, 2});
-  CHECK_THAT(depth_error(image, Camera{}), has("Set load_scene.fx, fy, cx and cy"));
+  CHECK_THAT(depth_error(image, Camera{}), has("set load_scene.fx, fy, cx and cy"));
   CHECK_THAT(depth_error(image, Camera{500, 0, 1, 1, 1}), has("fy = 0.000000"));
   CHECK_THAT(depth_error(image, Camera{500, 500, 0, 0, 1}), has("needs its camera"));
   CHECK_THAT(depth_error(image, Camera{500, std::nan(""), 1, 1, 1}), has("needs its camera"));
