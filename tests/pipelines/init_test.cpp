@@ -114,30 +114,56 @@ TEST_CASE("init: a sensor that did not stand at the origin", "[init]") {
   }
 }
 
+namespace {
+
+/// A set with depth images of 5000 units to the metre, made once.
+const fs::path& tum_set() {
+  static const fs::path set = [] {
+    const World& w = world();
+    w.folder.write("tum.yaml",
+                   "{width: 640, height: 480, fx: 570, noise_z2: 0.0015, depth_scale: 0.2}");
+    const std::string spec =
+        w.folder.write("tum_spec.yaml",
+                       "seed: 5\nmodels:\n"
+                       "  - {shape: figure, seed: 3, size: 0.2}\n"
+                       "  - {shape: kettle, seed: 4, size: 0.16}\n"
+                       "scenes:\n"
+                       "  - {sensor: tum.yaml, objects: [1, 2], clutter: 1}\n");
+    const CommandResult made =
+        run_posevote(w.folder, "simulate " + spec + " --out " + (w.folder / "tum").string());
+    INFO(made.output);
+    REQUIRE(made.status == 0);
+    return w.folder / "tum";
+  }();
+  return set;
+}
+
+}  // namespace
+
 TEST_CASE("init: a depth image of 5000 units to the metre, read as mm", "[init]") {
-  const World& w = world();
-  const std::string sensor = w.folder.write(
-      "tum.yaml", "{width: 640, height: 480, fx: 570, noise_z2: 0.0015, depth_scale: 0.2}");
-  const std::string spec = w.folder.write("tum_spec.yaml",
-                                          "seed: 5\nmodels:\n"
-                                          "  - {shape: figure, seed: 3, size: 0.2}\n"
-                                          "  - {shape: kettle, seed: 4, size: 0.16}\n"
-                                          "scenes:\n"
-                                          "  - {sensor: tum.yaml, objects: [1, 2], clutter: 1}\n");
-  REQUIRE(
-      run_posevote(w.folder, "simulate " + spec + " --out " + (w.folder / "tum").string()).status ==
-      0);
-  fs::create_directories(w.folder / "tum_depth");
-  const fs::path image = w.folder / "tum_depth/frame.png";
-  fs::copy_file(w.folder / "tum/test/000001/depth/000000.png", image);
+  const fs::path made = tum_set() / "test/000001/depth/000000.png";
   SECTION("the camera is said") {
+    const fs::path image = world().folder / "tum_depth/frame.png";
+    fs::create_directories(image.parent_path());
+    fs::copy_file(made, image);
     const Init init("tum", image.string(), "--camera 570 570 319.5 239.5");
     INFO(init.output);
     CHECK(init.names("depth scale"));
     CHECK(init.sets("depth_scale: 0.2 "));
   }
+  SECTION("the camera stands in a file that every run reads, without the scale") {
+    const fs::path image = world().folder / "tum_intrinsics/frame.png";
+    fs::create_directories(image.parent_path());
+    fs::copy_file(made, image);
+    world().folder.write("tum_intrinsics/intrinsics.txt", "570 570 319.5 239.5\n");
+    const Init init("intrinsics", image.string());
+    INFO(init.output);
+    CHECK(init.names("depth scale"));
+    CHECK_FALSE(init.names("camera unknown"));
+    CHECK(init.sets("depth_scale: 0.2 "));
+  }
   SECTION("the camera stands in a file beside it, with its scale") {
-    const Init init("beside", (w.folder / "tum/test/000001/depth/000000.png").string());
+    const Init init("beside", made.string());
     INFO(init.output);
     CHECK_FALSE(init.names("depth scale"));
     CHECK_FALSE(init.names("camera unknown"));

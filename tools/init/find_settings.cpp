@@ -102,7 +102,9 @@ void tell_scale(const ScanLook& look, double given, const std::string& trials, R
               scale < given ? given / scale : scale / given, scale < given ? "nearer" : "farther",
               look.diagonal * scale) +
            ". Tried and worse: " + trials,
-       "the config says load_scene.depth_scale: " + number(scale)});
+       report.scale_said ? "write depth_scale " + number(scale) +
+                               " into the camera file beside the images: it goes before the config"
+                         : "the config says load_scene.depth_scale: " + number(scale)});
 }
 
 void tell_nothing(const ScanLook& look, const std::vector<Tried>& tried, Report& report) {

@@ -49,10 +49,25 @@ std::string words(const std::vector<std::string>& texts) {
   return all;
 }
 
+/// The camera that comes with a scan, which a run takes before the config's.
+Camera scans_own(const Command& command, const SceneFile& scan, Report& report) {
+  Camera camera = *scan.camera;
+  report.scale_said = camera.depth_scale > 0;
+  report.camera_from = "as the file beside the images says, which a run takes first";
+  if (!report.scale_said) camera.depth_scale = command.depth_scale.value_or(1);
+  if (!command.camera.empty() || (command.depth_scale && report.scale_said))
+    report.wrong.push_back({"camera said twice",
+                            "a file beside " + scan.path.filename().string() + " says it, too",
+                            "a run takes the file's; mend or remove that file for another"});
+  return camera;
+}
+
 /// What is known of a depth image's camera; where nobody says it, a usual one.
-FoundCamera find_camera(const Command& command, const fs::path& image, Report& report) {
+FoundCamera find_camera(const Command& command, const SceneFile& scan, Report& report) {
   constexpr double kUsualField = 60 * std::numbers::pi / 180;  // across
+  const fs::path& image = scan.path;
   FoundCamera found;
+  if (scan.camera) return {scans_own(command, scan, report), ""};
   if (!command.camera.empty()) {
     found.camera = {command.camera[0], command.camera[1], command.camera[2], command.camera[3], 1};
     report.camera_from = "as --camera says";
@@ -91,7 +106,7 @@ std::vector<SceneFile> look_at_scans(const Command& command, Settings& given, Re
     ++report.all_scans;
     if (files.size() == command.look) continue;
     if (!given.camera && formats::has_ending(entry.file.path, formats::Wanted::kDepthImages)) try {
-        given.camera = find_camera(command, entry.file.path, report).camera;
+        given.camera = find_camera(command, entry.file, report).camera;
       } catch (const std::exception&) {  // unreadable, which the look says
       }
     files.push_back(entry.file);

@@ -38,6 +38,7 @@ struct Report {
   std::size_t all_scans = 0;
   Settings settings;
   std::string camera_from;  ///< words for where the camera of depth images comes from
+  bool scale_said = false;  ///< their depth_scale comes with them, and goes before any config
   std::vector<Finding> wrong;
   std::string config;  ///< its file
   std::string run;     ///< the line to run it

@@ -34,7 +34,9 @@ Trial to_trial(const graph::FrameResult<Detections>& result) {
 }  // namespace
 
 Trial Trials::run(const SceneFile& scan, const Settings& settings) {
-  return run_with(scan, "default", settings.sets(), "");
+  SceneFile tried = scan;
+  if (tried.camera) tried.camera = settings.camera;  // else it would go before the settings
+  return run_with(tried, "default", settings.sets(), "");
 }
 
 Trial Trials::run(const SceneFile& scan, const fs::path& config, const fs::path& picture) {
