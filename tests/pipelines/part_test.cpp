@@ -107,6 +107,14 @@ TEST_CASE("the threshold and the reach of a tally", "[part]") {
   CHECK(part::threshold_for(verdicts, 0.99) == 0.8);
   CHECK(part::threshold_for(verdicts, 0.75) == 0.6);
   CHECK_FALSE(part::threshold_for({{0.9, false, 1}}, 0.5));
+  const part::Tally judged{{"a"}, {}, verdicts, {1}, {4}, {1}};
+  part::Command command;
+  CHECK_THAT(
+      part::to_text(judged, command),
+      Contains("Believe a confidence of 0.80 or more: of such detections 2 of 2 are right") &&
+          Contains("1 in 4 scans at 1 m"));
+  command.precision = 0.75;
+  CHECK_THAT(part::to_text(judged, command), Contains("Believe every") && Contains(": 3 of 4 are"));
 
   part::Tally tally{{"a"}, {}, {}, {0.5, 1}, {}, {}};
   for (int i = 0; i < 20; ++i) {

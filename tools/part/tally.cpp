@@ -71,29 +71,23 @@ std::string false_ones(const Tally& tally) {
 }
 
 std::string threshold_text(const Tally& tally, double precision) {
-  const auto wrong = std::count_if(tally.verdicts.begin(), tally.verdicts.end(),
-                                   [](const Verdict& verdict) { return !verdict.correct; });
-  const auto all = tally.verdicts.size();
-  if (all == 0) return "Nothing was detected, so there is no threshold to give.\n";
   const auto threshold = threshold_for(tally.verdicts, precision);
+  if (tally.verdicts.empty()) return "Nothing was detected, so there is no threshold to give.\n";
   if (!threshold)
-    return format(
-        "No confidence separates: even the surest detections are right less often than "
-        "in %g of cases.\n",
-        precision);
-  const auto kept = std::count_if(tally.verdicts.begin(), tally.verdicts.end(),
-                                  [&](const Verdict& one) { return one.score >= *threshold; });
+    return format("No confidence separates: at none are %g of the detections from it up right.\n",
+                  precision);
+  int kept = 0, right = 0;
+  for (const Verdict& one : tally.verdicts)
+    if (one.score >= *threshold) ++kept, right += one.correct ? 1 : 0;
   std::string text =
-      format("Believe a confidence of %.2f or more: of the %d such detections %.1f %% are right.",
-             *threshold, static_cast<int>(kept),
-             100 * make_curve(tally.verdicts, 1).back().counts.precision());
-  if (wrong == 0)
-    text = format("Believe every detection (confidence from 0.50): all %d are right.",
-                  static_cast<int>(all));
+      static_cast<std::size_t>(kept) == tally.verdicts.size()
+          ? format("Believe every detection (confidence from 0.50): %d of %d are right.", right,
+                   kept)
+          : format("Believe a confidence of %.2f or more: of such detections %d of %d are right.",
+                   *threshold, right, kept);
   constexpr double kRuleOfThree = 3;  // none in n: at most 3 / n with a probability of 95 %
-  const double shown = 1 - kRuleOfThree / static_cast<double>(std::max<long>(1, kept));
-  if (shown < precision)
-    text += format(" So few only show a precision of %.2f with certainty: more --scans say more.",
+  if (const double shown = 1 - kRuleOfThree / kept; right == kept && shown < precision)
+    text += format(" So few show a precision of %.2f at most: more --scans say more.",
                    std::max(0.0, shown));
   return text + "\n";
 }
