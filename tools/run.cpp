@@ -21,6 +21,7 @@
 #include "tools/commands.hpp"
 #include "tools/json_answer.hpp"
 #include "tools/progress/frame_report.hpp"
+#include "tools/run_lock.hpp"
 #include "tools/run_record.hpp"
 #include "tools/text.hpp"
 #include "tools/write_text.hpp"
@@ -197,6 +198,7 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
   }();
   const fs::path effective = fs::path(command.out) / "effective.yaml";
   const std::string description = describe_run(command, configuration, *library);
+  const auto lock = as_arguments([&] { return RunLock(command.out); });
   if (command.resume) check_same_run(effective, description);
   as_arguments([&] { return begin_run(command, configuration, *library, scenes); });
   // A resumed run has it; a full disk must not take it.

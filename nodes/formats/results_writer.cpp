@@ -38,15 +38,27 @@ bool has(const std::vector<std::string>& formats, const std::string& format) {
                               ": the scans have changed; choose another --out");
 }
 
-/// Names only: the same scans may be reached by another path.
+/// Whether two files that can both be read hold something else. Scenes of one set share names.
+bool differ(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  if (!fs::is_regular_file(a, none) || !fs::is_regular_file(b, none) || fs::equivalent(a, b, none))
+    return false;
+  if (fs::file_size(a, none) != fs::file_size(b, none)) return true;
+  std::ifstream left(a, std::ios::binary), right(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return !std::equal(Bytes(left), Bytes(), Bytes(right), Bytes());
+}
+
+/// The same scans may be reached by another path, or have been moved.
 void check_same_scans(const fs::path& results, const std::vector<ordered_json>& frames,
                       const std::map<std::size_t, fs::path>& scans) {
   for (const ordered_json& frame : frames) {
     const auto scan = scans.find(frame.at("frame").get<std::size_t>());
     if (scan == scans.end()) continue;
-    const std::string before = fs::path(frame.at("file").get<std::string>()).filename().string();
-    const std::string now = scan->second.filename().string();
-    if (line(now) != line(before)) fail_changed(results, scan->first, before, now);
+    const fs::path before = frame.at("file").get<std::string>(), now = scan->second;
+    if (line(now.filename().string()) != line(before.filename().string()))
+      fail_changed(results, scan->first, before.filename(), now.filename());
+    if (differ(before, now)) fail_changed(results, scan->first, before, now);
   }
 }
 

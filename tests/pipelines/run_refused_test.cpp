@@ -3,6 +3,7 @@
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "tests/pipelines/run_world.hpp"
+#include "tools/run_lock.hpp"
 
 using namespace posevote;
 using namespace posevote::test;
@@ -106,4 +107,35 @@ TEST_CASE("scans in mm and models in cm are found by their units", "[run]") {
   CHECK(run.status == 0);
   CHECK(run.output.find("warning") == std::string::npos);
   CHECK(frames("found")[0]["detections"].size() == 1);
+}
+
+TEST_CASE("one run at a time writes into a folder", "[run]") {
+  const World& w = world();
+  const std::string again = "--scenes " + (w.scans / "000000.ply").string() + " --overwrite";
+  {
+    const RunLock held(w.folder / "held");
+    const CommandResult refused = w.run("held", again);
+    INFO(refused.output);
+    CHECK(refused.status == 2);
+    CHECK(refused.output.find("held: another run is writing there") != std::string::npos);
+    CHECK_FALSE(fs::exists(w.folder / "held/results.json"));
+  }
+  CHECK(w.run("held", again).status == 0);
+}
+
+TEST_CASE("a scan of the same name that holds something else is not taken as answered", "[run]") {
+  const World& w = world();
+  const fs::path one = w.folder / "sets/a/scan.ply", other = w.folder / "sets/b/scan.ply";
+  for (const auto& [from, to] : {std::pair("000001.ply", one), std::pair("000002.ply", other)}) {
+    fs::create_directories(to.parent_path());
+    fs::copy(w.scans / from, to);
+  }
+  REQUIRE(w.run("same_name", "--scenes " + one.string()).status == 0);
+  const CommandResult more =
+      w.run("same_name", "--resume --scenes " + one.string() + " " + other.string());
+  INFO(more.output);
+  CHECK(more.status == 0);
+  const CommandResult changed = w.run("same_name", "--resume --scenes " + other.string());
+  CHECK(changed.status == 2);
+  CHECK(changed.output.find("sets/b/scan.ply: the scans have changed") != std::string::npos);
 }
