@@ -19,7 +19,7 @@ struct ViewedRun {
     folder.write("set/test/000001/depth/000002.png", "broken");
     const CommandResult run =
         run_posevote(folder, "run demo --dataset " + dataset.string() + " --out " + out.string() +
-                                 " --set write_picture.every=0 write_overlay.every=0");
+                                 " --set write_picture.every=0 --set write_overlay.every=0");
     INFO(run.output);
     REQUIRE(run.status == 1);
   }
