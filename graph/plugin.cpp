@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "graph/did_you_mean.hpp"
 #include "graph/registry.hpp"
 
 #ifdef POSEVOTE_ABI
@@ -130,13 +131,12 @@ std::vector<fs::path> code_files() {
 }
 
 std::string unknown_node(const std::string& name) {
-  const std::string head = "unknown node '" + name + "', ";
-  if (const std::string why = why_missing(name); !why.empty()) return head + why;
+  const std::string is_not_there = "unknown node '" + name + "'";
+  if (const std::string why = why_missing(name); !why.empty()) return is_not_there + ", " + why;
   std::vector<std::string> known;
   for (const NodeSpec* other : all_nodes()) known.push_back(other->name);
-  const std::string near = closest_name(name, known);
-  return head +
-         (near.empty() ? "`posevote nodes` lists what there is" : "did you mean '" + near + "'?");
+  const std::string near = did_you_mean(name, known);
+  return is_not_there + (near.empty() ? ", `posevote nodes` lists what there is" : near);
 }
 
 namespace detail {
