@@ -45,6 +45,7 @@ int train_command(const TrainCommand& command);
 /// Options of `simulate` and `evaluate`.
 struct SimulateCommand {
   std::string spec, out;
+  bool colors = false;  ///< whatever the spec says
 };
 int simulate_command(const SimulateCommand& command);
 struct EvaluateCommand {

@@ -39,7 +39,9 @@ nlohmann::ordered_json instances_json(const Evaluation& evaluation) {
 }  // namespace
 
 int simulate_command(const SimulateCommand& command) {
-  simulate(command.spec, command.out);
+  Spec spec = read_spec(command.spec);
+  spec.colors |= command.colors;
+  simulate(spec, command.out);
   std::cout << "wrote " << command.out << "\n";
   return 0;
 }

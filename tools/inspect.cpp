@@ -196,7 +196,7 @@ may use `graph/parallel.hpp` and nothing else of `graph/`. Its test runs it by n
 (`tests/support/run_node.hpp`): `tests/nodes/VERB/NAME_test.cpp`. Then `posevote docs`.
 
 A verb's folder holds its nodes and what is private to one of them. What two nodes share goes to a room: data,
-geometry, descriptors, library, formats, layouts, density, poses, pictures, adapters. A room sees only those
+color, geometry, descriptors, library, formats, layouts, density, poses, pictures, adapters. A room sees only those
 before it, a verb no other verb; `tests/style/rooms_test.cpp` holds that. One sub-namespace a folder.
 
 )";

@@ -26,4 +26,11 @@ constexpr std::array<const char*, kClueCount> kClueNames{
 
 using Clues = std::array<double, kClueCount>;
 
+/// What colours say of a detection, where the scan and the model have any: log odds, as far as one
+/// knows, of them being the object's and not anybody's (poses/color_fit.hpp).
+struct ColorClues {
+  double likeness = 0;  ///< of how they vary over the object
+  double tint = 0;      ///< of what they are on the mean
+};
+
 }  // namespace posevote

@@ -29,9 +29,10 @@ struct Detection {
   /// [rad]): T_true = T_scene_model exp(xi). Empty-handed of a pose that was not refined.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance{};
   double seconds = 0;     ///< that the search for it took (poses/object_search.hpp)
-  Symmetries symmetries;  ///< of the model: poses that look the same
-  Clues against{};        ///< what each clue takes from the log odds, beside usual right detections
-  std::string why;        ///< of a rejected one: the threshold that it missed
+  Symmetries symmetries;  ///< of the model: poses that look the same, in colour where that is known
+  std::optional<ColorClues> colors{};  ///< likewise, where the scan and the model have any
+  Clues against{};  ///< what each clue takes from the log odds, beside usual right detections
+  std::string why;  ///< of a rejected one: the threshold that it missed
 };
 
 /// All detections of a frame, in descending order of confidence.

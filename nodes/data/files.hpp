@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/data/cloud.hpp"
 #include "nodes/data/symmetries.hpp"
+#include "nodes/data/texture.hpp"
 
 namespace posevote {
 
@@ -30,7 +30,8 @@ struct LoadedPoints {
 /// A depth image's content, row by row.
 struct LoadedDepth {
   std::size_t width = 0, height = 0;
-  std::vector<float> depths;  ///< [m]; 0 or not finite: no measurement
+  std::vector<float> depths;                  ///< [m]; 0 or not finite: no measurement
+  std::shared_ptr<const ColorImage> color{};  ///< of the same pixels, or null
 };
 
 /// One scan of a batch.
@@ -41,6 +42,7 @@ struct SceneFile {
   std::optional<Camera> camera;  ///< given where the data set says it; else load_scene's parameters
   std::shared_ptr<const LoadedPoints> points{};  ///< in the file's place, or null
   std::shared_ptr<const LoadedDepth> depth{};    ///< the same of a depth image
+  std::filesystem::path color{};  ///< image of a depth image's colours, registered to it, or empty
 };
 
 /// One object model.

@@ -122,7 +122,9 @@ PlyHeader read_ply_header(TextScanner& in) {
       header.elements.push_back(read_element(in, header));
     } else if (keyword == "property") {
       read_property(in, header);
-    } else if (keyword != "comment" && keyword != "obj_info") {
+    } else if (keyword == "comment") {
+      if (in.word() == "TextureFile") header.images.push_back(in.rest_of_line());
+    } else if (keyword != "obj_info") {
       in.fail("expected a line of a PLY header, found " + in_quotes(keyword));
     }
   }

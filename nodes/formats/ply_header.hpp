@@ -38,6 +38,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
+  std::vector<std::string> images;  ///< of "comment TextureFile NAME"
 
   /// Null where there is none.
   const PlyElement* find(const std::string& element) const;

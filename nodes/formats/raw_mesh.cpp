@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/formats/raw_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+#include <utility>
+
+#include "nodes/color/srgb.hpp"
 
 namespace posevote::formats {
 namespace {
@@ -56,12 +61,58 @@ FaceMatrix keep_faces(const RawMesh& mesh, const std::vector<std::uint32_t>& new
   return faces;
 }
 
+/// Colours and texture of the points that are left.
+void keep_colors(const RawMesh& mesh, const std::vector<std::uint32_t>& new_index, Scan& scan) {
+  if (!mesh.texture.images.empty()) {
+    Texture texture{mesh.texture.images, {}, std::vector<std::uint32_t>(scan.points.rows())};
+    texture.places.resize(scan.points.rows(), 2);
+    for (std::size_t i = 0; i < new_index.size(); ++i) {
+      if (new_index[i] == kGone) continue;
+      texture.places.row(new_index[i]) = mesh.texture.places.row(static_cast<Eigen::Index>(i));
+      texture.image_of[new_index[i]] = mesh.texture.image_of[i];
+    }
+    scan.texture = std::make_shared<const Texture>(std::move(texture));
+    return;
+  }
+  if (mesh.colors.empty()) return;
+  scan.colors.resize(scan.points.rows(), 3);
+  for (std::size_t i = 0; i < mesh.colors.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (new_index[i] != kGone)
+        scan.colors(new_index[i], static_cast<Eigen::Index>(k)) =
+            color::linear_of(mesh.colors[i][k]);
+}
+
 }  // namespace
 
 void RawMesh::add_polygon(std::span<const std::uint32_t> corners) {
   if (corners.size() > 3) fans.push_back({faces.size(), corners.size() - 2});
   for (std::size_t i = 2; i < corners.size(); ++i)
     faces.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+void RawMesh::add_polygon(std::span<const std::uint32_t> corners,
+                          std::span<const std::uint32_t> places, std::uint32_t material) {
+  add_polygon(corners);
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    paint.corners.push_back({places[0], places[i - 1], places[i]});
+    paint.material_of.push_back(material);
+  }
+}
+
+void RawMesh::settle_colors() {
+  if (colors.empty()) return;
+  if (colors.size() != points.size()) {
+    color_doubt = std::to_string(colors.size()) + " of " + std::to_string(points.size()) +
+                  " points have a colour";
+    colors.clear();
+  }
+  const bool are_bytes = std::any_of(colors.begin(), colors.end(), [](const Triple& color) {
+    return std::any_of(color.begin(), color.end(), [](double value) { return value > 1; });
+  });
+  if (!are_bytes) return;
+  for (Triple& color : colors)
+    for (double& value : color) value /= 255;
 }
 
 Scan to_scan(const RawMesh& mesh, double metres_per_unit) {
@@ -77,6 +128,7 @@ Scan to_scan(const RawMesh& mesh, double metres_per_unit) {
   if (!mesh.normals.empty()) scan.normals.resize(scan.points.rows(), 3);
   for (std::size_t i = 0; i < mesh.normals.size(); ++i)
     if (new_index[i] != kGone) scan.normals.row(new_index[i]) = direction(mesh.normals[i]);
+  keep_colors(mesh, new_index, scan);
   scan.faces = keep_faces(mesh, new_index);
   scan.view.origin = scaled(mesh.viewpoint, metres_per_unit).transpose();
   if (!scan.view.origin.allFinite()) throw std::runtime_error("the viewpoint is NaN or infinite");

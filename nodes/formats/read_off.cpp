@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads OFF, with normals (NOFF) and colours (COFF, and behind the indices of a face), which are
-// skipped. One vertex or face a line. Some files (ModelNet) have the counts in the keyword's line,
+// Reads OFF, with normals (NOFF) and colours (COFF); those behind the indices of a face are skipped.
+// One vertex or face a line. Some files (ModelNet) have the counts in the keyword's line,
 // even without a blank between: "OFF490 518 0".
 //
 // Own code because assimp 5.2 aborts on 117 of 1000 damaged files, allocates what a lying header
@@ -67,7 +67,10 @@ void read_vertices(TextScanner& in, const OffHeader& header, RawMesh& mesh) {
     next_row(in, "vertex", i, header.vertices);
     mesh.points.push_back(triple());
     if (header.has_normals) mesh.normals.push_back(triple());
-    if (!header.has_colors && !in.line_done())
+    if (in.line_done()) continue;
+    if (header.has_colors)
+      mesh.colors.push_back(triple());  // opacity may follow
+    else
       in.fail("more than " + std::to_string(header.has_normals ? 6 : 3) + " numbers for a vertex");
   }
 }
@@ -99,6 +102,7 @@ RawMesh read_off(std::string_view bytes) {
   read_vertices(in, header, mesh);
   read_faces(in, header, mesh);
   if (in.next_line()) in.fail("more in the file than the counts say");
+  mesh.settle_colors();
   return mesh;
 }
 

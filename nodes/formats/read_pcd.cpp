@@ -7,6 +7,7 @@
 // VIEWPOINT's translation becomes the view's origin; its rotation says nothing about the points.
 #include <liblzf/lzf.h>
 
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -18,7 +19,7 @@
 namespace posevote::formats {
 namespace {
 
-/// One of x, y, z, normal_x, normal_y, normal_z: where its values are.
+/// One of x, y, z, normal_x, normal_y, normal_z, rgb: where its values are.
 struct Column {
   PcdField field;
   std::uint64_t value = 0;   ///< ascii: position in the line
@@ -28,27 +29,56 @@ struct Column {
 
 using Columns = std::array<Column, 3>;
 
-/// Nothing where one of the three is missing. Compressed data holds field after field (all x, then
-/// all y, ...) without the padding fields "_"; else it holds point after point.
-std::optional<Columns> find_columns(const PcdHeader& header, const std::string& prefix) {
+/// Nothing where there is none. Compressed data holds field after field (all x, then all y, ...)
+/// without the padding fields "_"; else it holds point after point.
+std::optional<Column> find_column(const PcdHeader& header, const std::string& name) {
   const bool planar = header.data == PcdData::kBinaryCompressed;
+  const auto at = header.find(name);
+  if (!at || header.fields[*at].count != 1) return std::nullopt;
+  Column column;
+  column.field = header.fields[*at];
+  column.stride = planar ? column.field.size : header.point_bytes();
+  for (std::size_t f = 0; f < *at; ++f) {
+    const PcdField& before = header.fields[f];
+    column.value += before.count;
+    if (!planar)
+      column.offset += before.bytes();
+    else if (before.name != "_")
+      column.offset += before.bytes() * header.points;
+  }
+  return column;
+}
+
+/// Nothing where one of the three is missing.
+std::optional<Columns> find_columns(const PcdHeader& header, const std::string& prefix) {
   Columns columns;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto at = header.find(prefix + "xyz"[i]);
-    if (!at || header.fields[*at].count != 1) return std::nullopt;
-    Column& column = columns[i];
-    column.field = header.fields[*at];
-    column.stride = planar ? column.field.size : header.point_bytes();
-    for (std::size_t f = 0; f < *at; ++f) {
-      const PcdField& before = header.fields[f];
-      column.value += before.count;
-      if (!planar)
-        column.offset += before.bytes();
-      else if (before.name != "_")
-        column.offset += before.bytes() * header.points;
-    }
+    const auto column = find_column(header, prefix + "xyz"[i]);
+    if (!column) return std::nullopt;
+    columns[i] = *column;
   }
   return columns;
+}
+
+/// Red, green and blue in the three low bytes of four, which may call themselves a float.
+std::optional<Column> find_colors(const PcdHeader& header) {
+  for (const char* name : {"rgb", "rgba"})
+    if (const auto column = find_column(header, name); column && column->field.size == 4)
+      return column;
+  return std::nullopt;
+}
+
+Triple unpacked(std::uint32_t color) {
+  return {(color >> 16 & 255U) / 255.0, (color >> 8 & 255U) / 255.0, (color & 255U) / 255.0};
+}
+
+/// As ascii has it: the number of those four bytes.
+Triple written(double value, const PcdField& field) {
+  if (field.type == 'F') return unpacked(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+  const auto whole = value >= -2147483648.0 && value < 4294967296.0
+                         ? static_cast<std::int64_t>(value)
+                         : std::int64_t{0};
+  return unpacked(static_cast<std::uint32_t>(whole));
 }
 
 template <class T>
@@ -82,8 +112,22 @@ void read_binary(std::string_view data, const Columns& columns, std::uint64_t po
   }
 }
 
-void read_ascii(TextScanner& in, std::uint64_t room, const PcdHeader& header, const Columns& points,
-                const std::optional<Columns>& normals, RawMesh& mesh) {
+void read_colors(std::string_view data, const Column& column, std::uint64_t points,
+                 std::vector<Triple>& out) {
+  for (std::uint64_t i = 0; i < points; ++i)
+    out.push_back(
+        unpacked(load_bytes<std::uint32_t>(data.data() + column.offset + i * column.stride)));
+}
+
+/// What is read of a file.
+struct WantedColumns {
+  Columns points;
+  std::optional<Columns> normals;
+  std::optional<Column> color;
+};
+
+void read_ascii(TextScanner& in, std::uint64_t room, const PcdHeader& header,
+                const WantedColumns& wanted, RawMesh& mesh) {
   if (header.points == 0) return;  // nothing then bounds the width
   const std::uint64_t width = header.point_values();
   check_room(header.points, "points", 2 * width, room + 1);
@@ -98,8 +142,9 @@ void read_ascii(TextScanner& in, std::uint64_t room, const PcdHeader& header, co
                                std::to_string(header.points));
     for (double& value : row) value = in.number();
     if (!in.line_done()) in.fail("more than " + std::to_string(width) + " values");
-    mesh.points.push_back(pick(points));
-    if (normals) mesh.normals.push_back(pick(*normals));
+    mesh.points.push_back(pick(wanted.points));
+    if (wanted.normals) mesh.normals.push_back(pick(*wanted.normals));
+    if (wanted.color) mesh.colors.push_back(written(row[wanted.color->value], wanted.color->field));
   }
   if (in.next_line()) in.fail("more in the file than the header says");
 }
@@ -146,20 +191,21 @@ RawMesh read_pcd(std::string_view bytes) {
   TextScanner in(bytes, '#');
   const PcdHeader header = read_pcd_header(in);
   const std::string_view body = bytes.substr(in.next_offset());
-  const Columns points = find_columns(header, "").value();
-  const std::optional<Columns> normals = find_columns(header, "normal_");
+  const WantedColumns wanted{find_columns(header, "").value(), find_columns(header, "normal_"),
+                             find_colors(header)};
   RawMesh mesh;
   mesh.viewpoint = header.viewpoint;
   if (header.data == PcdData::kAscii) {
-    read_ascii(in, body.size(), header, points, normals, mesh);
+    read_ascii(in, body.size(), header, wanted, mesh);
     return mesh;
   }
   const bool packed = header.data == PcdData::kBinaryCompressed;
   const std::vector<char> unpacked = packed ? decompress(body, header) : std::vector<char>();
   const std::string_view data =
       packed ? std::string_view(unpacked.data(), unpacked.size()) : plain_body(body, header);
-  read_binary(data, points, header.points, mesh.points);
-  if (normals) read_binary(data, *normals, header.points, mesh.normals);
+  read_binary(data, wanted.points, header.points, mesh.points);
+  if (wanted.normals) read_binary(data, *wanted.normals, header.points, mesh.normals);
+  if (wanted.color) read_colors(data, *wanted.color, header.points, mesh.colors);
   return mesh;
 }
 

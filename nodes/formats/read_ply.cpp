@@ -3,7 +3,10 @@
 // the header's counts and is some ten times slower.
 //
 // A row of a text file is one line. Elements other than vertex and face are skipped, and so are
-// properties that are not needed. Polygons become fans of triangles.
+// properties that are not needed. Polygons become fans of triangles. Colours are those of vertices,
+// or of the images that comments name ("TextureFile"): places in them stand with the vertices, or
+// with the faces (texcoord, as MeshLab writes them).
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -14,7 +17,7 @@
 
 #include "nodes/formats/file_bytes.hpp"
 #include "nodes/formats/format.hpp"
-#include "nodes/formats/ply_header.hpp"
+#include "nodes/formats/ply_columns.hpp"
 #include "nodes/formats/ply_rows.hpp"
 #include "nodes/formats/raw_mesh.hpp"
 
@@ -34,39 +37,16 @@ void skip_property(Rows& in, const PlyProperty& property) {
   in.skip(property.type, property.count_type ? list_length(in, property) : 1);
 }
 
-/// Positions of x, y, z, and of nx, ny, nz where there are all three.
-struct VertexColumns {
-  std::array<std::size_t, 3> point{};
-  std::array<std::size_t, 3> normal{};
-  bool has_normals = true;
-};
-
-VertexColumns find_columns(const PlyElement& vertex) {
-  VertexColumns columns;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::string axis(1, "xyz"[i]);
-    const auto point = vertex.find(axis);
-    const auto normal = vertex.find("n" + axis);
-    if (!point || vertex.properties[*point].count_type)
-      throw std::runtime_error("the header's vertex has no property " + axis +
-                               ", expected x, y and z");
-    columns.point[i] = *point;
-    if (normal && !vertex.properties[*normal].count_type)
-      columns.normal[i] = *normal;
-    else
-      columns.has_normals = false;
-  }
-  return columns;
-}
-
 template <class Rows>
 void read_vertices(Rows& in, const PlyElement& vertex, RawMesh& mesh) {
-  const VertexColumns columns = find_columns(vertex);
+  const PlyColumns columns = find_columns(vertex);
   const auto pick = [](const std::vector<double>& row, const std::array<std::size_t, 3>& at) {
     return Triple{row[at[0]], row[at[1]], row[at[2]]};
   };
   mesh.points.reserve(vertex.count);
-  if (columns.has_normals) mesh.normals.reserve(vertex.count);
+  if (columns.normal) mesh.normals.reserve(vertex.count);
+  if (columns.color) mesh.colors.reserve(vertex.count);
+  mesh.color_doubt = columns.color_doubt;
   std::vector<double> row(vertex.properties.size());
   for (std::uint64_t i = 0; i < vertex.count; ++i) {
     in.begin_row(vertex, i);
@@ -79,8 +59,14 @@ void read_vertices(Rows& in, const PlyElement& vertex, RawMesh& mesh) {
     }
     in.end_row();
     mesh.points.push_back(pick(row, columns.point));
-    if (columns.has_normals) mesh.normals.push_back(pick(row, columns.normal));
+    if (columns.normal) mesh.normals.push_back(pick(row, *columns.normal));
+    if (columns.color) mesh.colors.push_back(pick(row, *columns.color));
+    if (columns.place)
+      mesh.paint.places.push_back({row[(*columns.place)[0]], row[(*columns.place)[1]]});
   }
+  for (Triple& color : mesh.colors)
+    for (double& value : color) value /= columns.brightest;
+  mesh.settle_colors();
 }
 
 template <class Rows>
@@ -96,25 +82,71 @@ void read_polygon(Rows& in, const PlyProperty& list, std::uint64_t vertices,
   }
 }
 
+/// The places of a face's corners in an image: a list of u, v, u, v ...
+template <class Rows>
+void read_places(Rows& in, const PlyProperty& list, RawMesh& mesh,
+                 std::vector<std::uint32_t>& places) {
+  places.clear();
+  const std::uint64_t length = list_length(in, list);
+  for (std::uint64_t i = 0; i + 1 < length; i += 2) {
+    places.push_back(static_cast<std::uint32_t>(mesh.paint.places.size()));
+    const double u = in.value(list.type), v = in.value(list.type);
+    mesh.paint.places.push_back({u, v});
+  }
+  in.skip(list.type, length % 2);
+}
+
 template <class Rows>
 void read_faces(Rows& in, const PlyElement& face, std::uint64_t vertices, RawMesh& mesh) {
-  const auto indices = face.find("vertex_indices");
-  const std::size_t list = indices ? *indices : face.find("vertex_index").value_or(SIZE_MAX);
-  if (list < face.properties.size() && !face.properties[list].count_type)
-    throw std::runtime_error("the header's face has vertex indices that are not a list");
+  const PlyFaceColumns columns = find_face_columns(face);
   mesh.faces.reserve(face.count);
-  std::vector<std::uint32_t> polygon;
+  std::vector<std::uint32_t> polygon, places;
   for (std::uint64_t i = 0; i < face.count; ++i) {
     in.begin_row(face, i);
+    double image = 0;
     for (std::size_t p = 0; p < face.properties.size(); ++p) {
-      if (p == list)
+      if (p == columns.corners)
         read_polygon(in, face.properties[p], vertices, polygon);
+      else if (p == columns.places)
+        read_places(in, face.properties[p], mesh, places);
+      else if (p == columns.image)
+        image = in.value(face.properties[p].type);
       else
         skip_property(in, face.properties[p]);
     }
     in.end_row();
-    mesh.add_polygon(polygon);
+    if (columns.places < face.properties.size()) {
+      if (places.size() != polygon.size())
+        in.fail("texcoord has " + std::to_string(places.size()) + " places for " +
+                std::to_string(polygon.size()) + " corners");
+      mesh.add_polygon(polygon, places, static_cast<std::uint32_t>(std::clamp(image, 0.0, 1e6)));
+    } else {
+      mesh.add_polygon(polygon);
+    }
   }
+}
+
+/// Images are of use where points or faces say their places in them. Those of points are each its
+/// own corners'.
+void settle_paint(RawMesh& mesh, const std::vector<std::string>& images) {
+  Paint& paint = mesh.paint;
+  if (paint.corners.empty() && paint.places.size() == mesh.points.size()) {
+    paint.corners = mesh.faces;
+    paint.material_of.assign(mesh.faces.size(), 0);
+  }
+  const bool is_used = paint.corners.size() == mesh.faces.size() && !mesh.faces.empty();
+  if (!is_used || images.empty()) {
+    paint = {};
+    return;
+  }
+  const std::uint32_t last = *std::max_element(paint.material_of.begin(), paint.material_of.end());
+  if (last < images.size()) {
+    paint.materials = images;
+    return;
+  }
+  paint = {};
+  mesh.color_doubt = "a face refers to image " + std::to_string(std::uint64_t{last} + 1) +
+                     ", the file has " + std::to_string(images.size());
 }
 
 template <class Rows>
@@ -135,6 +167,7 @@ RawMesh read_body(Rows in, const PlyHeader& header, std::uint64_t vertices) {
     }
   }
   in.end_file();
+  settle_paint(mesh, header.images);
   return mesh;
 }
 

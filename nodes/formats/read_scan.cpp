@@ -5,8 +5,10 @@
 #include <stdexcept>
 #include <variant>
 
+#include "nodes/color/texture_color.hpp"
 #include "nodes/formats/file_bytes.hpp"
 #include "nodes/formats/format.hpp"
+#include "nodes/formats/paint_mesh.hpp"
 #include "nodes/formats/raw_mesh.hpp"
 #include "nodes/formats/triangulate.hpp"
 
@@ -22,17 +24,32 @@ Read find_reader(const std::filesystem::path& path, Wanted wanted) {
                            ", expected " + list_endings(wanted));
 }
 
-}  // namespace
-
-Scan read_scan(const std::filesystem::path& path, double metres_per_unit) {
+/// With a texture where there is one.
+Scan read_surface(const std::filesystem::path& path, double metres_per_unit, Seams seams,
+                  const Warn& warn) {
   const FileBytes bytes = read_file(path);
   RawMesh mesh = find_reader<ReadMesh>(path, Wanted::kMeshes)(bytes.view());
+  try {
+    paint_mesh(mesh, path.parent_path(), seams);
+  } catch (const std::runtime_error& error) {
+    mesh.color_doubt = error.what();
+  }
+  if (warn && !mesh.color_doubt.empty()) warn("its colours are left out: " + mesh.color_doubt);
   mend_concave(mesh);
   return to_scan(mesh, metres_per_unit);
 }
 
-Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit) {
-  return read_scan(path, metres_per_unit);
+}  // namespace
+
+Scan read_scan(const std::filesystem::path& path, double metres_per_unit, const Warn& warn) {
+  Scan scan = read_surface(path, metres_per_unit, Seams::kJoin, warn);
+  scan.colors = color::point_colors(scan);
+  scan.texture = nullptr;
+  return scan;
+}
+
+Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit, const Warn& warn) {
+  return read_surface(path, metres_per_unit, Seams::kSplit, warn);
 }
 
 DepthImage read_depth_image(const std::filesystem::path& path) {

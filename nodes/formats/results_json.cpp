@@ -71,6 +71,8 @@ ordered_json to_json(const Detection& found) {
                     {"t_m", {t.x(), t.y(), t.z()}},
                     {"covariance", to_json(found.covariance)},
                     {"seconds", found.seconds}};
+  if (found.colors)
+    json["colors"] = {{"likeness", found.colors->likeness}, {"tint", found.colors->tint}};
   if (!found.why.empty()) json["why"] = found.why;
   if (found.symmetries.any()) json["symmetries"] = to_json(found.symmetries);
   return json;
@@ -102,6 +104,10 @@ const ordered_json& about() {
        "of a frame: of the run's time its share; stages: of that, of each step. Of a detection: of "
        "segment_objects, the time spent on the search for this object, since its instance before"},
       {"rejected", "the best poses that missed a threshold, and which"},
+      {"colors",
+       "where the scan and the model have any, what they say for a detection, in log odds: "
+       "likeness, "
+       "by how they vary over it; tint, by what they are on the mean"},
       {"against",
        "what each clue takes from the confidence's log odds, beside what right "
        "detections usually have"}};

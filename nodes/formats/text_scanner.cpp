@@ -71,6 +71,15 @@ std::string_view TextScanner::word() {
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
+std::string TextScanner::rest_of_line() {
+  skip_blanks();
+  const char* begin = at_;
+  at_ = end_;
+  const char* last = end_;
+  while (last != begin && is_blank(*(last - 1))) --last;
+  return {begin, last};
+}
+
 double TextScanner::number() {
   skip_blanks();
   double value = 0;

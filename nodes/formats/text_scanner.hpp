@@ -23,6 +23,8 @@ class TextScanner {
   /// The next word of the line, which must be a number: "+1", "1e-3", "nan", "-inf", "1.#QNAN" too.
   double number();
   bool line_done();
+  /// What is left of the line, without blanks at its ends.
+  std::string rest_of_line();
 
   /// Of the current line, from 1.
   std::size_t line() const { return line_; }

@@ -106,7 +106,7 @@ FaceSamples sample_faces(const PointMatrix& points, const FaceMatrix& faces, dou
     throw std::runtime_error("its " + std::to_string(faces.rows()) + " faces have no area");
   const CornerNormals corner_normals(points, faces, areas, crease);
   const std::size_t count = count_samples(total, spacing, most);
-  FaceSamples samples{PointMatrix(count, 3), PointMatrix(count, 3), {}};
+  FaceSamples samples{PointMatrix(count, 3), PointMatrix(count, 3), {}, PointMatrix(count, 3)};
   samples.faces.reserve(count);
   double passed = 0;
   std::size_t done = 0;
@@ -128,6 +128,9 @@ FaceSamples sample_faces(const PointMatrix& points, const FaceMatrix& faces, dou
       samples.points.row(row) = point.cast<float>();
       samples.normals.row(row) = normal.normalized().cast<float>();
       samples.faces.push_back(f);
+      for (int corner = 0; corner < 3; ++corner)
+        samples.weights(row, corner) =
+            static_cast<float>(weights[static_cast<std::size_t>(corner)]);
     }
   }
   return samples;

@@ -13,6 +13,7 @@ struct FaceSamples {
   PointMatrix points;                ///< n x 3 [m]
   PointMatrix normals;               ///< n x 3 unit vectors, on the side that the winding says
   std::vector<std::uint32_t> faces;  ///< the face that each lies on, ascending
+  PointMatrix weights{};             ///< n x 3, of that face's corners: where on it
 };
 
 /// Points spread evenly over the area of all faces, one for each `spacing` squared [m^2] but at

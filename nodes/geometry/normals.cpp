@@ -56,8 +56,9 @@ std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointM
   return rows;
 }
 
-Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view) {
-  Cloud cloud{points, std::move(normals), view};
+Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view,
+                    const ColorMatrix& colors) {
+  Cloud cloud{points, std::move(normals), view, colors};
   const std::vector<std::uint32_t> kept = oriented_rows(cloud.points, cloud.normals);
   if (std::ssize(kept) != points.rows()) return select_rows(cloud, kept);
   return cloud;

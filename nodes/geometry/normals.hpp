@@ -24,7 +24,8 @@ void turn_toward(const Eigen::Vector3f& sensor, const PointMatrix& points, Point
 std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals);
 
 /// Those of the points that oriented_rows finds. Throws as it does.
-Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view = {});
+Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view = {},
+                    const ColorMatrix& colors = {});
 
 /// Throws std::runtime_error if the points have no normals.
 void require_normals(const Cloud& cloud);

@@ -48,12 +48,18 @@ std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,
                                                              float distance) const {
+  const std::optional<Eigen::Index> row = compatible_row(p, distance);
+  if (!row) return std::nullopt;
+  return OrientedPoint{points_.row(*row).transpose(), normals_.row(*row).transpose()};
+}
+
+std::optional<Eigen::Index> ScanSurface::compatible_row(const OrientedPoint& p,
+                                                        float distance) const {
   const std::optional<Neighbour> nearest = nearest_left(p.point, distance);
   if (!nearest) return std::nullopt;
   const auto row = static_cast<Eigen::Index>(nearest->index);
-  const Eigen::Vector3f normal = normals_.row(row).transpose();
-  if (normal.dot(p.normal) < normal_cosine_) return std::nullopt;
-  return OrientedPoint{points_.row(row).transpose(), normal};
+  if (normals_.row(row).transpose().dot(p.normal) < normal_cosine_) return std::nullopt;
+  return row;
 }
 
 }  // namespace posevote::geometry

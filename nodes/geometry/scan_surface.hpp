@@ -43,6 +43,8 @@ class ScanSurface {
   bool faces_sensor(const OrientedPoint& p) const;
   /// The nearest scan point, at most `distance` away, if its normal agrees with p's.
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
+  /// Which of the scan's that is.
+  std::optional<Eigen::Index> compatible_row(const OrientedPoint& p, float distance) const;
   /// The same, whichever way it looks.
   std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
 

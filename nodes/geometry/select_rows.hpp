@@ -7,21 +7,30 @@
 
 namespace posevote::geometry {
 
-/// Those points with their normals, in the order of `rows`; the view stays. `rows`: a vector of row
-/// numbers or an Eigen::seq.
-template <class Rows>
-Cloud select_rows(const Cloud& cloud, const Rows& rows) {
-  return {cloud.points(rows, Eigen::all), cloud.normals(rows, Eigen::all), cloud.view};
+/// Those rows of a matrix that may have none at all.
+template <class Matrix, class Rows>
+Matrix select_if_any(const Matrix& matrix, const Rows& rows) {
+  if (matrix.rows() == 0) return {};
+  return matrix(rows, Eigen::all);
 }
 
-/// Those points of a Mesh or a Scan, with their normals where it has any. No faces: what is left of
-/// a face has no rows to name.
+/// Those points with their normals and colours, in the order of `rows`; the view stays. `rows`: a
+/// vector of row numbers or an Eigen::seq.
+template <class Rows>
+Cloud select_rows(const Cloud& cloud, const Rows& rows) {
+  return {cloud.points(rows, Eigen::all), cloud.normals(rows, Eigen::all), cloud.view,
+          select_if_any(cloud.colors, rows)};
+}
+
+/// Those points of a Mesh or a Scan, with their normals and colours where it has any. No faces:
+/// what is left of a face has no rows to name; and no texture, which belongs to faces.
 template <std::derived_from<Mesh> Surface, class Rows>
 Surface select_rows(const Surface& surface, const Rows& rows) {
   Surface selected;
   if constexpr (std::derived_from<Surface, Scan>) selected.view = surface.view;
   selected.points = surface.points(rows, Eigen::all);
-  if (surface.normals.rows() > 0) selected.normals = surface.normals(rows, Eigen::all);
+  selected.normals = select_if_any(surface.normals, rows);
+  selected.colors = select_if_any(surface.colors, rows);
   return selected;
 }
 

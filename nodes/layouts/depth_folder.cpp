@@ -3,6 +3,7 @@
 // the order of their names.
 #include "nodes/formats/format.hpp"
 #include "nodes/layouts/camera_file.hpp"
+#include "nodes/layouts/color_beside.hpp"
 #include "nodes/layouts/files.hpp"
 #include "nodes/layouts/recording.hpp"
 
@@ -26,7 +27,7 @@ const auto registered = register_recording(
      [](const fs::path& folder) {
        std::vector<SceneFile> files;
        for (const fs::path& image : depth_images(folder / "depth"))
-         files.push_back({image, 0, 0, camera_beside(image)});
+         files.push_back({image, 0, 0, camera_beside(image), {}, {}, color_beside(image)});
        return files;
      }});
 

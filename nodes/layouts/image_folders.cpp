@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "nodes/geometry/rotation.hpp"
+#include "nodes/layouts/color_beside.hpp"
 #include "nodes/layouts/models_info.hpp"
 
 namespace posevote::layouts {
@@ -179,7 +180,7 @@ std::vector<SceneFile> images_of(const ImageFolders& names, const fs::path& scen
     if (entry == cameras.end()) fail(camera_file, image_name(im_id) + ": has no camera");
     const Camera camera =
         located(camera_file, image_name(im_id), [&] { return read_camera(entry->second); });
-    images.push_back({path, scene_id, im_id, camera});
+    images.push_back({path, scene_id, im_id, camera, {}, {}, color_beside(path)});
   }
   return images;
 }

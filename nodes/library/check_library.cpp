@@ -38,6 +38,9 @@ void check_cloud(const Cloud& cloud) {
   require(cloud.points.allFinite(), "a cloud has points that are not finite");
   require_count(cloud.normals.rows(), cloud.points.rows(), "normals");
   require_unit(cloud.normals, true, "normal");
+  require(cloud.colors.rows() == 0 || cloud.colors.rows() == cloud.points.rows(),
+          "colours are not of all points");
+  require(cloud.colors.allFinite(), "colours are not finite");
 }
 
 void check_features(const FeatureSet& features) {

@@ -13,6 +13,7 @@ namespace {
 void put_cloud(ByteWriter& out, const Cloud& cloud) {
   out.put_matrix(cloud.points);
   out.put_matrix(cloud.normals);
+  out.put_matrix(cloud.colors);
 }
 
 void put_numbers(ByteWriter& out, const std::vector<std::uint32_t>& numbers) {
@@ -103,6 +104,7 @@ Cloud get_cloud(ByteReader& in) {
   Cloud cloud;
   cloud.points = in.get_matrix<PointMatrix>();
   cloud.normals = in.get_matrix<PointMatrix>();
+  cloud.colors = in.get_matrix<ColorMatrix>();
   return cloud;
 }
 

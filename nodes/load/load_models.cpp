@@ -28,8 +28,8 @@ struct Params {
 };
 
 /// From the file, or from memory.
-Mesh read_model(const ModelFile& file, double metres) {
-  if (!file.mesh) return formats::read_mesh(file.path, metres);
+Mesh read_model(const ModelFile& file, double metres, const formats::Warn& warn = {}) {
+  if (!file.mesh) return formats::read_mesh(file.path, metres, warn);
   Mesh model = *file.mesh;
   model.points = (model.points.cast<double>() * metres).cast<float>();
   return model;
@@ -37,10 +37,13 @@ Mesh read_model(const ModelFile& file, double metres) {
 
 Mesh load_model(const ModelFile& file, const graph::FrameContext& context,
                 const std::string& unit) {
-  Mesh model = read_model(file, formats::metres_per(unit));
+  const auto warn = [&](const std::string& what) {
+    context.warn(file.path.string() + ": " + what);
+  };
+  Mesh model = read_model(file, formats::metres_per(unit), warn);
   const double diagonal = geometry::model_diagonal(model.points);  // one without fails here, named
   const std::string odd = formats::odd_model_size(diagonal, unit);
-  if (!odd.empty()) context.warn(file.path.string() + ": " + odd);
+  if (!odd.empty()) warn(odd);
   return model;
 }
 

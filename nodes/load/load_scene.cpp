@@ -14,6 +14,9 @@
 // all point away from the origin, from where all is seen: they are inverted, and estimate_normals
 // turns them.
 //
+// Colours come with the points of a file, or from the colour image beside a depth image. Such that
+// cannot be read, or do not fit, cost a warning.
+//
 // Points that are NaN or infinite are left out. Linear in the size of the file. Fails, saying
 // where, on files that are missing, damaged, cut off, or whose header claims more than they hold.
 //
@@ -47,6 +50,7 @@ struct Params {
   double depth_scale = 1;
   double min_depth = 0;
   double max_depth = 0;
+  bool colors = true;
 };
 
 std::string check(const Params& params) {
@@ -130,8 +134,8 @@ std::string check_viewpoint(Scan& scan, bool is_said) {
 }
 
 /// The points, in metres.
-Scan read_points(const SceneFile& file, double metres) {
-  if (!file.points) return formats::read_scan(file.path, metres);
+Scan read_points(const SceneFile& file, double metres, const formats::Warn& warn = {}) {
+  if (!file.points) return formats::read_scan(file.path, metres, warn);
   Scan scan = file.points->scan;
   scan.points = (scan.points.cast<double>() * metres).cast<float>();
   scan.view.origin = (scan.view.origin.cast<double>() * metres).cast<float>();
@@ -155,7 +159,7 @@ Scan load_points(const SceneFile& file, const graph::FrameContext& context, cons
   const double metres =
       formats::metres_per(params.unit == "auto" ? likely_unit(file, context) : params.unit);
   const std::optional<Eigen::Vector3d> viewpoint = said_viewpoint(file, params);
-  Scan scan = read_points(file, metres);
+  Scan scan = read_points(file, metres, [&](const std::string& what) { context.warn(what); });
   if (viewpoint) scan.view.origin = (*viewpoint * metres).cast<float>();
   if (!scan.view.origin.allFinite())
     throw std::runtime_error("the sensor's pose is too far away to be told in metres");
@@ -175,12 +179,18 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
   Camera camera = file.camera.value_or(given);
   if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
-  const DepthRange range{params.min_depth, params.max_depth};
-  return file.depth ? points_of(*file.depth, camera, range) : read_depth(file.path, camera, range);
+  LoadedDepth image = file.depth ? *file.depth : read_depth(file.path, camera);
+  try {
+    if (params.colors && !file.color.empty()) add_colors(file.color, image);
+  } catch (const std::runtime_error& error) {
+    context.warn(std::string("its colours are left out: ") + error.what());
+  }
+  return points_of(image, camera, {params.min_depth, params.max_depth});
 }
 
 Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
   Scan scan = load_file(file, context, params);
+  if (!params.colors) scan.colors.resize(0, 3);
   const Eigen::Vector3d place = scan.view.origin.cast<double>();
   context.tell("sensor_pose", {place.x(), place.y(), place.z()});
   return scan;
@@ -208,6 +218,9 @@ const auto registered =
                graph::at_least(0))
         .param("max_depth", &Params::max_depth, "m",
                "Farther pixels of a depth image are left out; 0: no limit.", graph::at_least(0))
+        .param("colors", &Params::colors, "",
+               "Whether colours are read, of the file or of the image beside it. Colour tells what "
+               "shape cannot, of models that have colours, too.")
         .check(check);
 
 }  // namespace

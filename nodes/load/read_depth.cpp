@@ -2,9 +2,12 @@
 #include "nodes/load/read_depth.hpp"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "nodes/color/srgb.hpp"
+#include "nodes/formats/color_image.hpp"
 #include "nodes/formats/depth_image.hpp"
 
 namespace posevote::load {
@@ -46,6 +49,7 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
   check_camera(camera);
   Scan scan;
   scan.points.resize(static_cast<Eigen::Index>(image.depths.size()), 3);
+  if (image.color) scan.colors.resize(scan.points.rows(), 3);
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < image.depths.size(); ++i) {
     const float z = image.depths[i];
@@ -54,6 +58,10 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
       continue;
     const std::size_t row = i / image.width, column = i % image.width;
     const auto u = static_cast<double>(column), v = static_cast<double>(row);
+    if (image.color)
+      for (std::size_t k = 0; k < 3; ++k)
+        scan.colors(count, static_cast<Eigen::Index>(k)) =
+            color::linear_of(image.color->values[3 * i + k]);
     scan.points.row(count++) << static_cast<float>((u - camera.cx) * depth / camera.fx),
         static_cast<float>((v - camera.cy) * depth / camera.fy), z;
   }
@@ -63,14 +71,32 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
     throw std::runtime_error("none of the image's " + std::to_string(image.depths.size()) +
                              " pixels holds a depth within the limits (0 is no measurement)");
   scan.points.conservativeResize(count, 3);
+  if (image.color) scan.colors.conservativeResize(count, 3);
   return scan;
 }
 
-Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range) {
+LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera) {
   check_camera(camera);
   const formats::DepthImage image = formats::read_depth_image(path);
-  return points_of({image.width, image.height, formats::depths_of(image, camera.depth_scale)},
-                   camera, range);
+  return {image.width, image.height, formats::depths_of(image, camera.depth_scale)};
+}
+
+void add_colors(const std::filesystem::path& path, LoadedDepth& depth) {
+  const auto named = [&](const std::string& what) {
+    return std::runtime_error(path.parent_path().filename().string() + "/" +
+                              path.filename().string() + ": " + what);
+  };
+  try {
+    depth.color = std::make_shared<const ColorImage>(formats::read_color_image(path));
+  } catch (const std::runtime_error& error) {
+    throw named(error.what());
+  }
+  if (depth.color->width == depth.width && depth.color->height == depth.height) return;
+  const std::string sizes = "is of " + std::to_string(depth.color->width) + " x " +
+                            std::to_string(depth.color->height) + " pixels, the depth image of " +
+                            std::to_string(depth.width) + " x " + std::to_string(depth.height);
+  depth.color = nullptr;
+  throw named(sizes);
 }
 
 }  // namespace posevote::load

@@ -19,7 +19,11 @@ struct DepthRange {
 /// wrong.
 Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange& range);
 
-/// Those of a file, 0 being no measurement. The error does not repeat the path.
-Scan read_depth(const std::filesystem::path& path, const Camera& camera, const DepthRange& range);
+/// The depths of a file, 0 being no measurement. The error does not repeat the path.
+LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera);
+
+/// Adds the colours of the same pixels. Throws std::runtime_error that names the image and what is
+/// wrong with it; the depths then stay without.
+void add_colors(const std::filesystem::path& path, LoadedDepth& depth);
 
 }  // namespace posevote::load

@@ -108,6 +108,20 @@ void Canvas::draw(const Disc& disc, const Colour& colour) {
             to_pixel(colour));
 }
 
+void Canvas::outline(const Canvas& shape, int width, const Colour& colour) {
+  const std::uint32_t pixel = to_pixel(colour);
+  const auto is_drawn = [&shape](int row, int column) {
+    return row >= 0 && column >= 0 && row < shape.height_ && column < shape.width_ &&
+           std::isfinite(shape.depth_[shape.index(row, column)]);
+  };
+  for (int row = 0; row < height_; ++row)
+    for (int column = 0; column < width_; ++column)
+      if (is_drawn(row, column) &&
+          !(is_drawn(row - width, column) && is_drawn(row + width, column) &&
+            is_drawn(row, column - width) && is_drawn(row, column + width)))
+        pixels_[index(row, column)] = pixel;
+}
+
 Canvas Canvas::halved() const {
   constexpr std::uint32_t kOuter = 0x00FF00FF, kGreen = 0x0000FF00;
   Canvas half(width_ / 2, height_ / 2, Colour::Zero());

@@ -30,6 +30,9 @@ class Canvas {
   /// around. Discs of which center or tilt is not finite, or beyond 1e6 or 1000, are left out.
   void draw(const Disc& disc, const Colour& colour);
 
+  /// Colours the edge of what was drawn on a canvas of the same size, `width` pixels inward.
+  void outline(const Canvas& shape, int width, const Colour& colour);
+
   /// The same picture at half the size, each pixel the mean of four: smooth edges.
   Canvas halved() const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/color/srgb.hpp"
 #include "nodes/geometry/grid.hpp"
 
 namespace posevote::pictures {
@@ -129,8 +130,9 @@ Painter::Painter(const Cloud& scan, const PointMatrix& also, int width, float re
       canvas_(view_.width, view_.height, {0.98F, 0.98F, 0.98F}),
       resolution_(resolution) {}
 
-void Painter::draw(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colour& colour,
-                   float nearer) {
+template <class Draw>
+void Painter::for_each_disc(const Cloud& cloud, const Eigen::Isometry3f& pose,
+                            const Draw& draw) const {
   const float radius = 0.85F * spacing_of(cloud.points, resolution_);
   const bool has_normals = cloud.normals.rows() == cloud.points.rows();
   const Eigen::Matrix3f R_view_cloud = view_.axes * pose.linear();
@@ -142,10 +144,34 @@ void Painter::draw(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colo
     if (has_normals && !cloud.normals.row(i).isZero())
       normal = R_view_cloud * cloud.normals.row(i).transpose();
     if (!(normal.dot(seen) <= 0)) continue;
-    Disc disc = disc_of(view_, seen, normal, radius);
+    draw(i, disc_of(view_, seen, normal, radius), normal);
+  }
+}
+
+void Painter::draw(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colour& colour,
+                   float nearer) {
+  for_each_disc(cloud, pose, [&](Eigen::Index, Disc disc, const Eigen::Vector3f& normal) {
     disc.depth -= nearer;
     canvas_.draw(disc, shade(normal) * colour);
-  }
+  });
+}
+
+void Painter::draw_in_colors(const Cloud& cloud) {
+  for_each_disc(cloud, Eigen::Isometry3f::Identity(),
+                [&](Eigen::Index i, const Disc& disc, const Eigen::Vector3f&) {
+                  Colour colour;
+                  for (int k = 0; k < 3; ++k)
+                    colour[k] = static_cast<float>(color::byte_of(cloud.colors(i, k))) / 255;
+                  canvas_.draw(disc, colour);
+                });
+}
+
+void Painter::outline(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colour& colour) {
+  Canvas shape(view_.width, view_.height, Colour::Zero());
+  for_each_disc(cloud, pose, [&](Eigen::Index, const Disc& disc, const Eigen::Vector3f&) {
+    shape.draw(disc, Colour::Ones());
+  });
+  canvas_.outline(shape, 2 * kFiner, colour);
 }
 
 void Painter::label(const Eigen::Vector3f& where, const std::string& words, const Colour& colour) {

@@ -44,6 +44,10 @@ class Painter {
   /// Draws each point that faces the sensor as a disc large enough to close the surface. `nearer`
   /// [m] lets the cloud win over what lies at the same place.
   void draw(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colour& colour, float nearer);
+  /// The same of a cloud that has colours, each point in its own, as the camera saw it.
+  void draw_in_colors(const Cloud& cloud);
+  /// Draws the edge of what `draw` would cover, in front of all.
+  void outline(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colour& colour);
 
   /// Notes words to stand at a place, or below it where others stand already: first come, first
   /// served.
@@ -53,6 +57,10 @@ class Painter {
   void save(const std::filesystem::path& png) const;
 
  private:
+  /// `draw`(row, disc, normal in the view) of each point that faces the sensor.
+  template <class Draw>
+  void for_each_disc(const Cloud& cloud, const Eigen::Isometry3f& pose, const Draw& draw) const;
+
   struct Label {
     int x, y;
     std::string words;

@@ -19,6 +19,7 @@
 #include "nodes/data/clues.hpp"
 #include "nodes/data/hypotheses.hpp"
 #include "nodes/geometry/twist.hpp"
+#include "nodes/poses/color_fit.hpp"
 #include "nodes/poses/measure_fit.hpp"
 
 namespace posevote::poses {
@@ -32,11 +33,14 @@ struct Candidate {
   Fit fit;
   double quality = 0;
   double rank = 0;
-  double consensus = 1;  ///< in [0, 1], of votes, for the best of a search
-  Clues clues{};         ///< of refined poses, as is the next
+  double consensus = 1;              ///< in [0, 1], of votes, for the best of a search
+  Clues clues{};                     ///< of refined poses, as is the next
+  std::optional<ColorFit> colors{};  ///< of refined poses, where scan and model have colours
+  std::optional<ColorClues> color_clues{};
   double confidence = 0;
   bool is_refined = false;                         ///< by all steps of ICP
   std::optional<geometry::Matrix6d> covariance{};  ///< of what may be a detection
+  std::optional<Symmetries> symmetries{};          ///< likewise (color_turns.hpp)
   double seconds = 0;                              ///< that its search took (object_search.hpp)
   std::size_t near_symmetry = 0;                   ///< for twins: which of the model's made them
   double score() const { return quality * consensus; }

@@ -38,11 +38,17 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   return clues;
 }
 
-double confidence_of(const Clues& clues, const ConfidenceTerms& terms) {
+double log_odds_of(const Clues& clues, const ConfidenceTerms& terms) {
   double log_odds = terms.offset;
   for (std::size_t i = 0; i < kClueCount; ++i) log_odds += terms.weights[i] * clues[i];
-  return 1 / (1 + std::exp(-log_odds));
+  return log_odds;
 }
+
+double log_odds_of(const ColorClues& clues, const ColorTerms& terms) {
+  return terms.offset + terms.weights.likeness * clues.likeness + terms.weights.tint * clues.tint;
+}
+
+double probability_of(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
 Clues against(const Clues& clues, const ConfidenceTerms& terms) {
   Clues missing{};
@@ -61,7 +67,13 @@ void believe(const Sought& sought, Candidate& candidate) {
     candidate.consensus = consensus(*backing.votes_per_feature, sought.terms.score);
   }
   candidate.clues = clues_of(candidate.fit, backing, sought.terms.fit);
-  candidate.confidence = confidence_of(candidate.clues, sought.terms.confidence);
+  double log_odds = log_odds_of(candidate.clues, sought.terms.confidence);
+  if (candidate.colors) {
+    candidate.color_clues =
+        color_clues_of(*candidate.colors, sought.scan.usual_tint.tint(), sought.terms.color);
+    log_odds += log_odds_of(*candidate.color_clues, sought.terms.color);
+  }
+  candidate.confidence = probability_of(log_odds);
 }
 
 }  // namespace posevote::poses

@@ -28,8 +28,14 @@ struct Backing {
 /// Of a pose of quality > 0.
 Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms = {});
 
-/// In [0, 1]: 1 / (1 + exp(-(offset + weights . clues))).
-double confidence_of(const Clues& clues, const ConfidenceTerms& terms);
+/// offset + weights . clues
+double log_odds_of(const Clues& clues, const ConfidenceTerms& terms);
+
+/// The same of colours, which is added where there are any.
+double log_odds_of(const ColorClues& clues, const ColorTerms& terms);
+
+/// In [0, 1].
+double probability_of(double log_odds);
 
 /// What each clue takes from the log odds, beside what right detections usually have; negative where
 /// it speaks for the pose.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "nodes/poses/color_turns.hpp"
 #include "nodes/poses/pose_covariance.hpp"
 #include "nodes/poses/refinement.hpp"
 #include "nodes/poses/score.hpp"
@@ -69,6 +70,7 @@ void ObjectSearch::choose_best() {
     const bool is_promising = is_convincing(sought_, *best_);
     if (is_promising) polish(sought_, *best_);
     best_->covariance = pose_covariance(sought_, best_->T_scene_model);
+    best_->symmetries = symmetries_left(sought_, *best_);
     if (is_promising && is_convincing(sought_, *best_) &&
         taken_.is_clear(sought_.model, best_->T_scene_model))
       return;

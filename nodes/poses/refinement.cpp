@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "nodes/poses/color_turns.hpp"
 #include "nodes/poses/confidence.hpp"
 #include "nodes/poses/score.hpp"
 
@@ -44,6 +45,7 @@ void refine(const Sought& sought, Candidate& candidate) {
             {sought.params.icp_iterations, sought.params.icp_distance, sought.params.tolerance,
              terms.full_points, terms.full_still, sought.terms.icp});
   candidate.is_refined = true;
+  turn_by_color(sought, candidate);
   judge(sought, candidate, sought.terms.schedule.close_points);
   believe(sought, candidate);
 }
@@ -53,6 +55,7 @@ void polish(const Sought& sought, Candidate& candidate) {
   run_icp(sought, candidate, kPolish,
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
            terms.polish_points, terms.polish_still, sought.terms.icp});
+  turn_by_color(sought, candidate);
   judge(sought, candidate, 0);
   believe(sought, candidate);
 }

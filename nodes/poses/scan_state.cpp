@@ -27,7 +27,8 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
       resolution(resolution_m),
       view(scan, resolution_m, terms.view),
       surface(scan, view.usable(), kSearchCell * resolution_m, terms.surface),
-      feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0) {}
+      feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0),
+      look(scan) {}
 
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {

@@ -9,6 +9,7 @@
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/range_view.hpp"
 #include "nodes/geometry/scan_surface.hpp"
+#include "nodes/poses/color_fit.hpp"
 #include "nodes/poses/terms.hpp"
 #include "nodes/poses/usual_residual.hpp"
 
@@ -42,6 +43,8 @@ struct ScanState {
   std::vector<char> feature_explained;  // per scene feature
   int takes = 0;                        // how often something was taken out
   UsualResidual usual_residual;         // of what was found
+  LookOf look;
+  UsualTint usual_tint;  // of what was found
 
  private:
   std::vector<Eigen::AlignedBox3d> gone_;  // what each take took out lies in

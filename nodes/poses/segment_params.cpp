@@ -68,7 +68,8 @@ Detection make_detection(const Model& model, const Candidate& candidate,
   detection.T_scene_model = candidate.T_scene_model;
   detection.covariance = candidate.covariance;
   detection.seconds = candidate.seconds;
-  detection.symmetries = model.symmetries;
+  detection.symmetries = candidate.symmetries.value_or(model.symmetries);
+  detection.colors = candidate.color_clues;
   return detection;
 }
 

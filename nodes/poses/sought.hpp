@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "nodes/poses/color_fit.hpp"
 #include "nodes/poses/memory.hpp"
 #include "nodes/poses/scan_state.hpp"
 #include "nodes/poses/terms.hpp"
@@ -53,6 +54,7 @@ struct Sought {
   std::shared_ptr<const geometry::PointGrid> model_grid =
       std::make_shared<const geometry::PointGrid>(model.cloud.points, params.tolerance);
   std::shared_ptr<Memory> memory = std::make_shared<Memory>();
+  std::shared_ptr<const LookOf> look = std::make_shared<const LookOf>(model.cloud);
 };
 
 }  // namespace posevote::poses

@@ -2,7 +2,7 @@
 // What each term is, where its value comes from, and what it costs to change. The values stand in
 // terms.hpp and where that points to. Where no origin is said, the value was found by trying it on
 // simulated and real scans (laser scans of UWA and Queen's, RGB-D of bins and households).
-#include "nodes/poses/segment_params.hpp"
+#include "nodes/poses/register_terms.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -10,23 +10,6 @@ namespace {
 using graph::at_least;
 using graph::greater_than;
 using graph::in_range;
-using Node = graph::Registration<SegmentParams>;
-
-/// Registers members of one group of terms.
-template <class Group>
-struct Register {
-  Node& node;
-  Group Terms::*group;
-
-  template <class T>
-  void operator()(const char* name, T Group::*member, const char* unit, const char* doc,
-                  graph::Constraint constraint) const {
-    const auto access = [group = group, member](SegmentParams& params) -> T& {
-      return params.terms.*group.*member;
-    };
-    node.expert_param(name, access, unit, doc, std::move(constraint));
-  }
-};
 
 void add_schedule(Node& node) {
   using G = ScheduleTerms;
@@ -258,6 +241,7 @@ void add_terms(graph::Registration<SegmentParams>& node) {
   add_fit(node);
   add_score(node);
   add_confidence(node);
+  add_color_terms(node);
   add_refinement(node);
   add_covariance(node);
   add_twins(node);

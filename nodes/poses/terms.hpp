@@ -56,6 +56,19 @@ struct ConfidenceTerms {
   Clues weights{1.249, 1.37, 2.128, -2.795, 0.684, 0.107, 16.64, 1.783};
 };
 
+/// What colours say of it (color_fit.hpp), where there are any. The weights were fitted (posevote
+/// calibrate --colors) on coloured images of the same scenes.
+struct ColorTerms {
+  double lightness = 0.7;  ///< x chromaticity
+  double noise = 3;        ///< units of CIELAB
+  double patch = 0.06;     ///< x diagonal
+  double step = 12;        ///< of turns about an axis [deg]
+  int glance_points = 300, look_points = 1000;
+  double scatter = 12, most_patches = 20, tint = 9, any_tint = 25;
+  double offset = 0;  ///< log odds
+  ColorClues weights{0, 0};
+};
+
 /// How far it is refined (refinement.hpp).
 struct RefinementTerms {
   int coarse_steps = 4;
@@ -83,6 +96,7 @@ struct Terms {
   FitTerms fit;
   ScoreTerms score;
   ConfidenceTerms confidence;
+  ColorTerms color;
   RefinementTerms refinement;
   CovarianceTerms covariance;
   TwinTerms twins;

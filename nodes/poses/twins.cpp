@@ -34,9 +34,11 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
   using Standing = std::pair<double, double>;  // what tells, then the rank
   Standing highest{0, candidate.rank};
   for (const Candidate& twin : twins) {
-    const double lead = lead_over(sought, candidate, twin);
-    if (lead < -telling) continue;
-    const Standing standing = lead > telling ? Standing{lead, 0} : Standing{0, twin.rank};
+    const double by_color = color_lead(twin.colors, candidate.colors);
+    const double lead = lead_over(sought, candidate, twin) + by_color;
+    const double enough = by_color == 0 ? telling : 0;  // colours leave no need to ask the ranks
+    if (lead < -enough) continue;
+    const Standing standing = lead > enough ? Standing{lead, 0} : Standing{0, twin.rank};
     if (standing <= highest || !taken.is_clear(sought.model, twin.T_scene_model)) continue;
     best = twin;
     highest = standing;

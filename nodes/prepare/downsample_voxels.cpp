@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One oriented point per occupied voxel: the centroid and the mean normal (paper, section 4).
+// One oriented point per occupied voxel: the centroid, the mean normal (paper, section 4) and, where
+// the cloud has colours, the mean of their light.
 //
 // Where the normals of a voxel cancel (their mean is shorter than a half: both sides of a thin
 // wall), that mean would be garbage: the points are split along the normals' main axis, and each
@@ -32,11 +33,13 @@ constexpr double kCancelled = 0.5;
 struct Group {
   Eigen::RowVector3d points = Eigen::RowVector3d::Zero();
   Eigen::RowVector3d normals = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d colors = Eigen::RowVector3d::Zero();
   double count = 0;
 
   void add(const Cloud& cloud, std::uint32_t i) {
     points += cloud.points.row(i).cast<double>();
     normals += cloud.normals.row(i).cast<double>();
+    if (cloud.colors.rows() > 0) colors += cloud.colors.row(i).cast<double>();
     ++count;
   }
 };
@@ -78,11 +81,14 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
     for (const Group& side : group(cloud, voxels[v]))
       if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
   const auto count = static_cast<Eigen::Index>(groups.size());
-  Cloud out{PointMatrix(count, 3), PointMatrix(count, 3), cloud.view};
+  const bool is_colored = cloud.colors.rows() > 0;
+  Cloud out{PointMatrix(count, 3), PointMatrix(count, 3), cloud.view,
+            ColorMatrix(is_colored ? count : 0, 3)};
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     out.points.row(row) = (groups[i].points / groups[i].count).cast<float>();
     out.normals.row(row) = groups[i].normals.normalized().cast<float>();
+    if (is_colored) out.colors.row(row) = (groups[i].colors / groups[i].count).cast<float>();
   }
   return out;
 }

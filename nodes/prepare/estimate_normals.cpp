@@ -113,7 +113,7 @@ Cloud estimate_normals(const Scan& scan, const Scale& scale, const Params& param
   PointMatrix normals = params.outward ? geometry::outward_normals(
                                              scan, {params.source, smallest, params.min_neighbours})
                                        : scan_normals(scan, smallest, params);
-  return geometry::keep_oriented(scan.points, std::move(normals), scan.view);
+  return geometry::keep_oriented(scan.points, std::move(normals), scan.view, scan.colors);
 }
 
 const auto registered =

@@ -10,6 +10,8 @@
 // (outward_normals.hpp). The file's own normals are not trusted. Points without a normal (alone, on
 // a line) are left out. Fails where no point is left.
 //
+// Where the mesh has colours, by point or by texture, each sample has that of its place.
+//
 // On noisy meshes the faces' normals are useless: `source: pca` takes the vertices as a raw cloud.
 // `spacing: 0` takes the vertices, too, with normals of their faces. A model so large that it
 // would need more than `max_points` is sampled that much more coarsely. O(n log n).
@@ -19,6 +21,7 @@
 #include <string>
 
 #include "graph/registry.hpp"
+#include "nodes/color/texture_color.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/outward_normals.hpp"
@@ -37,6 +40,16 @@ struct Params {
   Visibility visibility;
 };
 
+ColorMatrix colors_of(const Mesh& mesh, const FaceMatrix& faces,
+                      const geometry::FaceSamples& samples) {
+  if (!color::is_colored(mesh)) return {};
+  ColorMatrix colors(samples.points.rows(), 3);
+  for (Eigen::Index i = 0; i < colors.rows(); ++i)
+    colors.row(i) = color::face_color(mesh, faces.row(samples.faces[static_cast<std::size_t>(i)]),
+                                      samples.weights.row(i));
+  return colors;
+}
+
 Cloud sample_surface(const Mesh& mesh, const Scale& scale, const Params& params) {
   const bool by_faces =
       params.source == "faces" || (params.source == "auto" && mesh.faces.rows() > 0);
@@ -44,15 +57,15 @@ Cloud sample_surface(const Mesh& mesh, const Scale& scale, const Params& params)
     const float smallest = static_cast<float>(params.radius) * scale.resolution;
     return geometry::keep_oriented(
         mesh.points,
-        geometry::outward_normals(mesh, {params.source, smallest, params.min_neighbours}));
+        geometry::outward_normals(mesh, {params.source, smallest, params.min_neighbours}), {},
+        color::point_colors(mesh));
   }
   const geometry::WoundFaces wound = geometry::wind_parts(mesh.points, mesh.faces);
-  return keep_seen(
-      mesh.points, wound,
-      geometry::sample_faces(mesh.points, wound.faces, params.spacing * scale.resolution,
-                             params.crease * std::numbers::pi / 180,
-                             static_cast<std::size_t>(params.max_points)),
-      params.visibility);
+  const geometry::FaceSamples samples = geometry::sample_faces(
+      mesh.points, wound.faces, params.spacing * scale.resolution,
+      params.crease * std::numbers::pi / 180, static_cast<std::size_t>(params.max_points));
+  return keep_seen(mesh.points, wound, samples, colors_of(mesh, wound.faces, samples),
+                   params.visibility);
 }
 
 const auto registered =

@@ -10,6 +10,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/occluder.hpp"
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::train {
 namespace {
@@ -116,9 +117,10 @@ std::vector<Sides> judge(const PointMatrix& points, const geometry::WoundFaces& 
 }  // namespace
 
 Cloud keep_seen(const PointMatrix& points, const geometry::WoundFaces& mesh,
-                const geometry::FaceSamples& samples, const Visibility& how) {
+                const geometry::FaceSamples& samples, const ColorMatrix& colors,
+                const Visibility& how) {
   const bool one_body = mesh.parts.size() == 1 && mesh.parts[0].closed;
-  if (one_body && how.two_sided != "always") return {samples.points, samples.normals, {}};
+  if (one_body && how.two_sided != "always") return {samples.points, samples.normals, {}, colors};
   const std::vector<Sides> kept = judge(points, mesh, samples, how);
   std::vector<std::uint32_t> rows;
   std::vector<float> signs;
@@ -134,7 +136,8 @@ Cloud keep_seen(const PointMatrix& points, const geometry::WoundFaces& mesh,
   const Eigen::Map<const Eigen::VectorXf> sign(signs.data(), std::ssize(signs));
   return {samples.points(rows, Eigen::all),
           (samples.normals(rows, Eigen::all).array().colwise() * sign.array()).matrix(),
-          {}};
+          {},
+          geometry::select_if_any(colors, rows)};
 }
 
 }  // namespace posevote::train

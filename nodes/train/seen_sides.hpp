@@ -17,7 +17,7 @@ struct Visibility {
 };
 
 /// The samples with the sides from which they can be seen; one that is seen from both comes twice,
-/// the second time with its normal turned. `samples` are of `mesh.faces`.
+/// the second time with its normal turned. `samples` are of `mesh.faces`; `colors`: theirs, or none.
 ///
 /// Rays from a part's samples into all directions of the sphere tell how open either side is. A
 /// part whose back is the open one is turned; one that is open on both is a sheet. Where there are
@@ -25,6 +25,7 @@ struct Visibility {
 /// walls between the solids of an assembly. One closed part needs no rays. Samples x some 5 rays;
 /// 64 for those within.
 Cloud keep_seen(const PointMatrix& points, const geometry::WoundFaces& mesh,
-                const geometry::FaceSamples& samples, const Visibility& how);
+                const geometry::FaceSamples& samples, const ColorMatrix& colors,
+                const Visibility& how);
 
 }  // namespace posevote::train

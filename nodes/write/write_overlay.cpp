@@ -2,7 +2,7 @@
 // Each scan with the found models laid over it, for a viewer of point clouds:
 // OUT/overlays/FRAME.ply.
 //
-// Binary PLY in metres, in the scan's frame: the scan in grey, each found instance's points in a
+// Binary PLY in metres, in the scan's frame: the scan in its colours or in grey, each found instance's points in a
 // colour of its own (the same as in write_picture). Where there is no output folder, that is an
 // error; a file that cannot be written fails the frame.
 //
@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "graph/registry.hpp"
+#include "nodes/color/srgb.hpp"
 #include "nodes/data/detections.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/formats/write_ply.hpp"
@@ -25,6 +26,17 @@ struct Params {
 formats::Rgb to_rgb(const pictures::Colour& colour) {
   return {static_cast<std::uint8_t>(255 * colour.x()), static_cast<std::uint8_t>(255 * colour.y()),
           static_cast<std::uint8_t>(255 * colour.z())};
+}
+
+/// Its own, or grey.
+std::vector<formats::Rgb> scan_colours(const Cloud& scan) {
+  std::vector<formats::Rgb> colours(static_cast<std::size_t>(scan.points.rows()),
+                                    formats::Rgb{160, 160, 155});
+  for (Eigen::Index i = 0; i < scan.colors.rows(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      colours[static_cast<std::size_t>(i)][k] =
+          color::byte_of(scan.colors(i, static_cast<Eigen::Index>(k)));
+  return colours;
 }
 
 void append(Mesh& to, const Cloud& cloud, const Eigen::Isometry3f& pose) {
@@ -47,8 +59,7 @@ void write_overlay(const Cloud& scan, const Detections& detections, const ModelL
     return;
   Mesh overlay;
   append(overlay, scan, Eigen::Isometry3f::Identity());
-  std::vector<formats::Rgb> colours(static_cast<std::size_t>(scan.points.rows()),
-                                    formats::Rgb{160, 160, 155});
+  std::vector<formats::Rgb> colours = scan_colours(scan);
   for (std::size_t i = 0; i < detections.items.size(); ++i) {
     const Detection& found = detections.items[i];
     const Model* model = find_model(library, found.obj_id);

@@ -2,7 +2,7 @@
 // A picture of each scan with the found models in place: OUT/pictures/FRAME.png.
 //
 // Seen from the sensor: the scan in grey, each found instance in a colour of its own, with its name
-// and score. Time grows with the points and, mildly, with the picture's size. Where there is no
+// and score; a scan that has colours in these, with the outlines of what was found over it. Time grows with the points and, mildly, with the picture's size. Where there is no
 // output folder, that is an error; a file that cannot be written fails the frame.
 //
 //   write_picture: {in: [scene_cloud, detections, library], width: 1280, every: 1}
@@ -44,7 +44,11 @@ void write_picture(const Cloud& scan, const Detections& detections, const ModelL
     return;
   pictures::Painter painter(scan, found_points(detections, library), params.width,
                             library.octaves.front().resolution);
-  painter.draw(scan, Eigen::Isometry3f::Identity(), {0.72F, 0.72F, 0.70F}, 0);
+  const bool in_colors = scan.colors.rows() > 0;
+  if (in_colors)
+    painter.draw_in_colors(scan);
+  else
+    painter.draw(scan, Eigen::Isometry3f::Identity(), {0.72F, 0.72F, 0.70F}, 0);
   for (std::size_t i = 0; i < detections.items.size(); ++i) {
     const Detection& found = detections.items[i];
     const Model* model = find_model(library, found.obj_id);
@@ -52,7 +56,10 @@ void write_picture(const Cloud& scan, const Detections& detections, const ModelL
     const Eigen::Isometry3f T_scene_model = found.T_scene_model.cast<float>();
     const pictures::Colour colour = pictures::distinct_colour(i);
     // A good fit lies on the scan: without a lead, scan and model would mix at random.
-    painter.draw(model->cloud, T_scene_model, colour, 2 * library.octaves.front().resolution);
+    if (in_colors)
+      painter.outline(model->cloud, T_scene_model, colour);
+    else
+      painter.draw(model->cloud, T_scene_model, colour, 2 * library.octaves.front().resolution);
     char score[32];
     std::snprintf(score, sizeof score, " %.2f", found.confidence);
     painter.label(T_scene_model * model->center, found.model + score, colour);

@@ -19,9 +19,9 @@ namespace {
 const fs::path kSource = POSEVOTE_SOURCE_DIR;
 
 /// From the ground up.
-const std::vector<std::string> kRooms{"data",    "geometry", "descriptors", "pairs",
-                                      "library", "formats",  "layouts",     "density",
-                                      "poses",   "pictures", "adapters"};
+const std::vector<std::string> kRooms{"data",    "color",   "geometry", "descriptors",
+                                      "pairs",   "library", "formats",  "layouts",
+                                      "density", "poses",   "pictures", "adapters"};
 const std::vector<std::string> kVerbs{"load",  "prepare", "describe", "match",   "vote",
                                       "train", "segment", "write",    "baseline"};
 

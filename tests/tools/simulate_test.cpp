@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "graph/problem.hpp"
+#include "nodes/color/srgb.hpp"
+#include "nodes/color/texture_color.hpp"
+#include "nodes/formats/color_image.hpp"
 #include "nodes/formats/depth_image.hpp"
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/geometry/nearest_index.hpp"
@@ -40,6 +44,59 @@ std::map<std::string, std::string> all_files(const fs::path& folder) {
 }
 
 }  // namespace
+
+TEST_CASE("a painted set has the same geometry, and colours that agree", "[simulate][color]") {
+  const TemporaryFolder folder;
+  std::string text = kSmall;
+  text.replace(text.find("{shape: horn, size: 0.15}"), 25, "{shape: carton, size: 0.15}");
+  Spec spec = read_spec(folder.write("spec.yaml", text));
+  simulate(spec, folder / "plain");
+  spec.colors = true;
+  simulate(spec, folder / "painted");
+  simulate(spec, folder / "again");
+  const auto plain = all_files(folder / "plain"), painted = all_files(folder / "painted");
+  CHECK(painted == all_files(folder / "again"));
+  for (const auto& [name, bytes] : plain)
+    if (!name.starts_with("models/")) CHECK(painted.at(name) == bytes);
+
+  // What the camera saw of the carton, against its model, which has a texture: like at the true pose.
+  const Mesh model = formats::read_mesh(folder / "painted/models/obj_000002.ply", 0.001);
+  CHECK(model.texture);
+  CHECK(formats::read_mesh(folder / "painted/models/obj_000001.ply", 0.001).colors.rows() > 1000);
+  const fs::path scene = folder / "painted/test/000001";
+  const ColorImage image = formats::read_color_image(scene / "rgb/000001.jpg");
+  const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "painted", "test");
+  const layouts::TrueInstance& carton = truth.instances.back();
+  const Camera camera = *truth.images.at({1, 1}).camera;
+  Eigen::MatrixX2d pairs(0, 2);  // green of the model, and as seen
+  for (Eigen::Index face = 0; face < model.faces.rows(); ++face)
+    for (int i = 1; i < 64; ++i) {
+      const Eigen::RowVector3f weights(static_cast<float>(i % 8) / 16,
+                                       static_cast<float>(i / 8) / 16,
+                                       1 - static_cast<float>(i % 8 + i / 8) / 16);
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k)
+        corners.col(k) = model.points.row(model.faces(face, k)).transpose().cast<double>();
+      const Eigen::Vector3d normal =
+          carton.T_scene_model.linear() *
+          (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+      const Eigen::Vector3d place =
+          carton.T_scene_model * Eigen::Vector3d(corners * weights.transpose().cast<double>());
+      if (normal.normalized().dot(-place.normalized()) < 0.3) continue;
+      const double u = camera.fx * place.x() / place.z() + camera.cx;
+      const double v = camera.fy * place.y() / place.z() + camera.cy;
+      const std::size_t pixel = static_cast<std::size_t>(std::lround(v)) * image.width +
+                                static_cast<std::size_t>(std::lround(u));
+      pairs.conservativeResize(pairs.rows() + 1, 2);
+      pairs.bottomRows(1) << color::face_color(model, model.faces.row(face), weights)[1],
+          color::linear_of(image.values.at(3 * pixel + 1));
+    }
+  REQUIRE(pairs.rows() > 100);
+  const Eigen::MatrixX2d centred = pairs.rowwise() - pairs.colwise().mean();
+  const double likeness =
+      centred.col(0).dot(centred.col(1)) / (centred.col(0).norm() * centred.col(1).norm());
+  CHECK(likeness > 0.7);
+}
 
 TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simulate]") {
   const TemporaryFolder folder;

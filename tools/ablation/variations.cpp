@@ -24,6 +24,8 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"confidence_lead", "0"},
                                                  {"confidence_exactness", "0"},
                                                  {"confidence_support", "0"},
+                                                 {"confidence_color_likeness", "0"},
+                                                 {"confidence_color_tint", "0"},
                                                  {"refine", "false"},
                                                  {"max_residual", "0"},
                                                  {"shortlist", "10000"},  // all are improved

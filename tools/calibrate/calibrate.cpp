@@ -2,9 +2,11 @@
 #include "tools/calibrate/calibrate.hpp"
 
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <stdexcept>
 
+#include "nodes/poses/confidence.hpp"
 #include "tools/calibrate/judged_poses.hpp"
 #include "tools/calibrate/logistic.hpp"
 #include "tools/commands.hpp"
@@ -37,20 +39,50 @@ int run_on(const TestSet& set, const CalibrateCommand& command,
   return run_command(run, interrupted);
 }
 
-Logistic fit(const Poses& poses) {
+/// What is fitted of a pose, and what is known before.
+struct Terms {
+  std::vector<std::string> names;  ///< of the weights, as parameters
+  std::string offset;
+  std::function<Eigen::VectorXd(const JudgedPose&)> clues;
+  std::function<double(const JudgedPose&)> known;  ///< log odds
+};
+
+Terms terms_of_shape() {
+  Terms terms{{}, "confidence_offset", {}, [](const JudgedPose&) { return 0.0; }};
+  for (const char* name : kClueNames) terms.names.push_back(std::string("confidence_") + name);
+  terms.clues = [](const JudgedPose& pose) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(pose.clues.data(), kClueCount));
+  };
+  return terms;
+}
+
+/// Of poses that have them.
+Terms terms_of_colors() {
+  return {{"confidence_color_likeness", "confidence_color_tint"},
+          "confidence_color_offset",
+          [](const JudgedPose& pose) {
+            return Eigen::VectorXd(Eigen::Vector2d(pose.colors->likeness, pose.colors->tint));
+          },
+          [](const JudgedPose& pose) {
+            return poses::log_odds_of(pose.clues, poses::ConfidenceTerms());
+          }};
+}
+
+Logistic fit(const Poses& poses, const Terms& terms) {
   const auto rows = static_cast<Eigen::Index>(poses.size());
-  Eigen::MatrixXd clues(rows, Eigen::Index(kClueCount));
-  Eigen::VectorXd right(rows);
+  Eigen::MatrixXd clues(rows, std::ssize(terms.names));
+  Eigen::VectorXd right(rows), known(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const JudgedPose& pose = poses[static_cast<std::size_t>(i)];
-    clues.row(i) = Eigen::Map<const Eigen::RowVectorXd>(pose.clues.data(), kClueCount);
+    clues.row(i) = terms.clues(pose).transpose();
+    known[i] = terms.known(pose);
     right[i] = pose.right;
   }
-  return fit_logistic(clues, right, Eigen::VectorXd::Ones(rows));
+  return fit_logistic(clues, right, Eigen::VectorXd::Ones(rows), known);
 }
 
 /// What the poses of every fifth image are given by weights from the others.
-std::vector<Verdict> cross_validated(const Poses& poses) {
+std::vector<Verdict> cross_validated(const Poses& poses, const Terms& terms) {
   std::map<std::pair<int, int>, std::size_t> images;
   for (const JudgedPose& pose : poses) images.try_emplace(pose.image, images.size());
   std::vector<Verdict> verdicts;
@@ -59,11 +91,11 @@ std::vector<Verdict> cross_validated(const Poses& poses) {
     for (const JudgedPose& pose : poses)
       (images[pose.image] % kFolds == fold ? these : others).push_back(pose);
     if (these.empty() || others.empty()) continue;
-    const Logistic fitted = fit(others);
+    const Logistic fitted = fit(others, terms);
     for (const JudgedPose& pose : these)
-      verdicts.push_back(
-          {fitted.probability(Eigen::Map<const Eigen::VectorXd>(pose.clues.data(), kClueCount)),
-           pose.right});
+      verdicts.push_back({poses::probability_of(terms.known(pose) + fitted.offset +
+                                                fitted.weights.dot(terms.clues(pose))),
+                          pose.right});
   }
   return verdicts;
 }
@@ -87,15 +119,16 @@ nlohmann::ordered_json print(const std::vector<Verdict>& verdicts) {
           {"ece", calibration ? calibration->error : 0}};
 }
 
-std::string to_yaml(const Logistic& fitted) {
-  char line[64];
-  std::snprintf(line, sizeof line, "  confidence_offset: %.4g\n", fitted.offset);
-  std::string text = std::string("segment_objects:\n") + line;
-  for (std::size_t i = 0; i < kClueCount; ++i) {
-    std::snprintf(line, sizeof line, "  confidence_%s: %.4g\n", kClueNames[i],
-                  fitted.weights[Eigen::Index(i)]);
+std::string to_yaml(const Logistic& fitted, const Terms& terms) {
+  std::string text = "segment_objects:\n";
+  const auto add = [&text](const std::string& name, double value) {
+    char line[64];
+    std::snprintf(line, sizeof line, "  %s: %.4g\n", name.c_str(), value);
     text += line;
-  }
+  };
+  add(terms.offset, fitted.offset);
+  for (std::size_t i = 0; i < terms.names.size(); ++i)
+    add(terms.names[i], fitted.weights[Eigen::Index(i)]);
   return text;
 }
 
@@ -106,7 +139,7 @@ int calibrate_command(const CalibrateCommand& command, const std::atomic<bool>& 
   Poses all;
   int scene_offset = 0;  // images of different sets are different ones
   for (const std::string& text : command.sets) {
-    const TestSet set = find_set(text, command.every, false, command.out);
+    const TestSet set = find_set(text, command.every, false, command.out, command.colors);
     if (const int status = run_on(set, command, interrupted); status != 0) return status;
     for (JudgedPose pose :
          judge_poses(fs::path(command.out) / set.name, set.dataset, command.rule)) {
@@ -115,14 +148,16 @@ int calibrate_command(const CalibrateCommand& command, const std::atomic<bool>& 
     }
     scene_offset += 1 << 20;
   }
+  if (command.colors) std::erase_if(all, [](const JudgedPose& pose) { return !pose.colors; });
   if (all.empty()) throw std::invalid_argument("nothing was found; expected poses to judge");
-  nlohmann::ordered_json json = print(cross_validated(all));
-  const Logistic fitted = fit(all);
-  json["confidence_offset"] = fitted.offset;
-  for (std::size_t i = 0; i < kClueCount; ++i)
-    json["confidence_" + std::string(kClueNames[i])] = fitted.weights[Eigen::Index(i)];
+  const Terms terms = command.colors ? terms_of_colors() : terms_of_shape();
+  nlohmann::ordered_json json = print(cross_validated(all, terms));
+  const Logistic fitted = fit(all, terms);
+  json[terms.offset] = fitted.offset;
+  for (std::size_t i = 0; i < terms.names.size(); ++i)
+    json[terms.names[i]] = fitted.weights[Eigen::Index(i)];
   answer.give(json);
-  const std::string yaml = to_yaml(fitted);
+  const std::string yaml = to_yaml(fitted, terms);
   const fs::path file = fs::path(command.out) / "confidence.yaml";
   write_text(file, yaml);
   std::printf("%swrote %s\n", yaml.c_str(), file.string().c_str());

@@ -16,6 +16,7 @@ struct CalibrateCommand {
   std::string out = "out/calibrate", rule = "adds";
   std::vector<std::string> set;
   std::size_t every = 0;
+  bool colors = false;
   bool json = false;
 };
 int calibrate_command(const CalibrateCommand& command, const std::atomic<bool>& interrupted);

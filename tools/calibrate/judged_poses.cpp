@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 struct Found {
   std::vector<FoundInstance> poses;
   std::vector<Clues> clues;  ///< of each
+  std::vector<std::optional<ColorClues>> colors;
 };
 
 void add(const Json& frame, const Json& detection, Found& found) {
@@ -24,6 +25,9 @@ void add(const Json& frame, const Json& detection, Found& found) {
   Clues& clues = found.clues.emplace_back();
   for (std::size_t i = 0; i < kClueCount; ++i)
     clues[i] = detection.at("clues").at(kClueNames[i]).get<double>();
+  std::optional<ColorClues>& colors = found.colors.emplace_back();
+  if (const auto said = detection.find("colors"); said != detection.end())
+    colors = ColorClues{said->at("likeness").get<double>(), said->at("tint").get<double>()};
 }
 
 Found read_found(const std::filesystem::path& results) {
@@ -53,8 +57,10 @@ std::vector<JudgedPose> judge_poses(const std::filesystem::path& run,
   std::vector<JudgedPose> judged;
   for (const Verdict& verdict : evaluation.all[0].verdicts) {
     const auto i = static_cast<std::size_t>(verdict.line - 1);
-    judged.push_back(
-        {{found.poses[i].scene_id, found.poses[i].im_id}, found.clues[i], verdict.correct});
+    judged.push_back({{found.poses[i].scene_id, found.poses[i].im_id},
+                      found.clues[i],
+                      found.colors[i],
+                      verdict.correct});
   }
   return judged;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@ namespace posevote {
 struct JudgedPose {
   std::pair<int, int> image;  ///< scene_id, im_id
   Clues clues{};
+  std::optional<ColorClues> colors{};
   bool right = false;
 };
 

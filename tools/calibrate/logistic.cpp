@@ -40,15 +40,16 @@ double Logistic::probability(const Eigen::VectorXd& clues) const {
 }
 
 Logistic fit_logistic(const Eigen::MatrixXd& clues, const Eigen::VectorXd& right,
-                      const Eigen::VectorXd& importance) {
+                      const Eigen::VectorXd& importance, const Eigen::VectorXd& known) {
   if (right.size() == 0 || right.maxCoeff() < 1 || right.minCoeff() > 0)
     throw std::invalid_argument("expected detections that are right and some that are wrong");
   const Standardised x = standardise(clues);
+  const Eigen::VectorXd base = known.size() > 0 ? known : Eigen::VectorXd::Zero(right.size());
   Eigen::VectorXd penalty = Eigen::VectorXd::Constant(x.columns.cols(), kPenalty);
   penalty[0] = 1e-9;  // the offset is free
   Eigen::VectorXd beta = Eigen::VectorXd::Zero(x.columns.cols());
   for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::VectorXd p = sigmoid(x.columns * beta);
+    const Eigen::VectorXd p = sigmoid(base + x.columns * beta);
     const Eigen::VectorXd spread = (importance.array() * p.array() * (1 - p.array())).matrix();
     Eigen::MatrixXd hessian = x.columns.transpose() * spread.asDiagonal() * x.columns;
     hessian.diagonal() += penalty;

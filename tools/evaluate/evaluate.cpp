@@ -141,6 +141,25 @@ double calibration_error(const RuleResult& result) {
   return calibration && calibration->count > 0 ? calibration->error : kUnknown;
 }
 
+std::map<int, WayRound> right_way_round(const Evaluation& evaluation) {
+  const auto place_of = [&](const std::string& name) {
+    const auto at = std::find_if(evaluation.rules.begin(), evaluation.rules.end(),
+                                 [&](const Rule& rule) { return rule.name == name; });
+    return static_cast<std::size_t>(at - evaluation.rules.begin());
+  };
+  const std::size_t add = place_of("add"), adds = place_of("adds");
+  std::map<int, WayRound> objects;
+  if (std::max(add, adds) == evaluation.rules.size()) return objects;
+  for (const InstanceResult& instance : evaluation.instances) {
+    if (!instance.counted || !(instance.met[adds] > 0)) continue;
+    for (const int obj_id : {0, instance.obj_id}) {
+      ++objects[obj_id].found;
+      objects[obj_id].right += instance.met[add] > 0;
+    }
+  }
+  return objects;
+}
+
 Coverage coverage_of(const RuleResult& result) {
   constexpr double k95 = 12.592;  // chi-square of six degrees of freedom
   Coverage coverage;

@@ -75,6 +75,15 @@ struct Coverage {
 };
 Coverage coverage_of(const RuleResult& result);
 
+/// Of the instances that a detection finds by the closest points (rule `adds`), those that it finds
+/// by the points themselves (`add`), too: the right way round, where a shape looks alike.
+struct WayRound {
+  int found = 0, right = 0;
+  double share() const { return found > 0 ? static_cast<double>(right) / found : kUnknown; }
+};
+/// By obj_id, 0 being all; empty where the rules are not both asked for.
+std::map<int, WayRound> right_way_round(const Evaluation& evaluation);
+
 /// For each image, object and condition, detections take in descending order of their score the
 /// nearest right instance that is still free; the others are false positives, but one that finds an
 /// instance that is not counted is neither. Of BOP's average recalls, as many detections are judged

@@ -76,6 +76,17 @@ std::string bop_line(const Evaluation& evaluation) {
   return format("%-10s %-25s %6.3f\n", "all", "AR (BOP19: mean of three)", sum / 3);
 }
 
+/// Where both are asked for: of the instances that are found by the closest points (ADD-S), those
+/// that are found by the points themselves (ADD), which are the right way round.
+std::string way_round(const Evaluation& evaluation) {
+  std::string text;
+  for (const auto& [obj_id, share] : right_way_round(evaluation))
+    text += format("%-10s %-25s %6.3f   %d of %d\n",
+                   obj_id == 0 ? "all" : ("object " + std::to_string(obj_id)).c_str(),
+                   "ADD where ADD-S is met", share.share(), share.right, share.found);
+  return text;
+}
+
 std::string notes(const Evaluation& evaluation) {
   std::string text;
   bool left_out = false;
@@ -108,7 +119,7 @@ std::string to_text(const Evaluation& evaluation, bool instances) {
       text << line("object " + std::to_string(obj_id), evaluation.rules[r], results[r]);
     text << line("all", evaluation.rules[r], evaluation.all[r]);
   }
-  text << bop_line(evaluation);
+  text << bop_line(evaluation) << way_round(evaluation);
   return text.str();
 }
 

@@ -18,19 +18,25 @@ const std::map<std::string, std::size_t> kEvery = {
 
 /// The replica of a config's scenes; it is made where it is not there yet, without images that
 /// nobody will look at.
-fs::path find_replica(const std::string& config, std::size_t every, const fs::path& out) {
-  const fs::path dataset = out / "replicas" / (config + "_every_" + std::to_string(every));
-  const std::string spec = (shared_folder() / "configs" / (config + "_scenes.yaml")).string();
-  if (!fs::exists(spec))
+fs::path find_replica(const std::string& config, std::size_t every, const fs::path& out,
+                      bool colors) {
+  const fs::path dataset =
+      out / "replicas" / (config + (colors ? "_colors" : "") + "_every_" + std::to_string(every));
+  const std::string file = (shared_folder() / "configs" / (config + "_scenes.yaml")).string();
+  if (!fs::exists(file))
     throw std::invalid_argument("--sets " + config + ": expected a config with scenes to " +
                                 "simulate, or CONFIG=DIR for a real set");
-  if (!fs::exists(dataset)) simulate(spec, dataset, every);
+  if (fs::exists(dataset)) return dataset;
+  Spec spec = read_spec(file);
+  spec.colors |= colors;
+  simulate(spec, dataset, every);
   return dataset;
 }
 
 }  // namespace
 
-TestSet find_set(const std::string& text, std::size_t every, bool quick, const fs::path& out) {
+TestSet find_set(const std::string& text, std::size_t every, bool quick, const fs::path& out,
+                 bool colors) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos) {
     const fs::path dataset = text.substr(equals + 1);
@@ -40,7 +46,7 @@ TestSet find_set(const std::string& text, std::size_t every, bool quick, const f
   }
   const auto known = kEvery.find(text);
   if (every == 0) every = (known == kEvery.end() ? 1 : known->second) * (quick ? 4 : 1);
-  return {text, text, find_replica(text, every, out), 1};  // holds what is to be seen
+  return {text, text, find_replica(text, every, out, colors), 1};  // holds what is to be seen
 }
 
 }  // namespace posevote

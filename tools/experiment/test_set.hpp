@@ -17,8 +17,8 @@ struct TestSet {
 
 /// "uwa": the replica that configs/uwa_scenes.yaml describes, made below `out` where it is not there
 /// yet; "bop=DIR": a set at hand. `every`: one image of so many, 0: what suits the replica, a
-/// quarter of it if `quick`.
+/// quarter of it if `quick`. `colors`: of replicas, painted ones.
 TestSet find_set(const std::string& text, std::size_t every, bool quick,
-                 const std::filesystem::path& out);
+                 const std::filesystem::path& out, bool colors = false);
 
 }  // namespace posevote

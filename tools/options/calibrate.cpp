@@ -27,6 +27,8 @@ void add_options(CLI::App& app, CalibrateCommand& command) {
   app.add_option("--every", command.every, "Take one image of so many; 0: what suits the set")
       ->type_name("N")
       ->check(CLI::Range(0, 10000));
+  app.add_flag("--colors", command.colors,
+               "Paint the replicas, and fit what colours add to the clues as they are weighed now");
   add_set(app, command.set);
   add_json(app, command.json);
 }

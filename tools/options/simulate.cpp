@@ -10,6 +10,7 @@ namespace {
 
 struct Options {
   std::string spec;
+  bool colors = false;
   part::Command part;
 };
 
@@ -38,6 +39,9 @@ void add_options(CLI::App& app, Options& options) {
   app.footer(footer());
   CLI::Option* spec =
       app.add_option("spec", options.spec, "What to make (YAML)")->type_name("FILE");
+  app.add_flag("--colors", options.colors,
+               "With a spec: paint things, and photograph what is scanned; the geometry stays")
+      ->needs(spec);
   app.add_option("--models", part.models, "Meshes of one's own parts to look for")
       ->type_name("FILE")
       ->excludes(spec);
@@ -72,7 +76,7 @@ int run(const Options& options) {
   if (!options.part.models.empty()) return part::check(options.part, end_in_order());
   if (options.spec.empty())
     throw std::invalid_argument("expected a spec, or --models FILE..., one of them");
-  return simulate_command({options.spec, options.part.out});
+  return simulate_command({options.spec, options.part.out, options.colors});
 }
 
 const auto registered = register_command<Options>(

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "nodes/color/srgb.hpp"
 #include "nodes/pictures/painter.hpp"
 #include "tools/report/model_list.hpp"
 #include "tools/report/votes.hpp"
@@ -38,6 +39,17 @@ Json view_of(const PointMatrix& points, const Eigen::Vector3f& eye, const Eigen:
           {"size", to_json(box.sizes())}};
 }
 
+/// A byte for each of the points' own colours: three bits of red, three of green, two of blue.
+std::vector<std::uint8_t> color_bytes(const Scan& scan, const Thinned& thinned) {
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint32_t row : thinned.rows) {
+    const auto share = [&](Eigen::Index k) { return color::byte_of(scan.colors(row, k)); };
+    bytes.push_back(
+        static_cast<std::uint8_t>((share(0) & 0xE0) | (share(1) & 0xE0) >> 3 | share(2) >> 6));
+  }
+  return bytes;
+}
+
 std::string show_points(const Scan& scan, std::size_t most, const std::string& id, Json& json) {
   const Thinned thinned = thin(scan.points, most);
   if (thinned.rows.empty()) throw std::runtime_error("the scan holds no point");
@@ -48,8 +60,11 @@ std::string show_points(const Scan& scan, std::size_t most, const std::string& i
       pictures::perspective_of({points, PointMatrix(0, 3), scan.view}, PointMatrix(0, 3), 100).axes;
   const Eigen::Vector3f light =
       axes.transpose() * Eigen::Vector3f(-0.4F, -0.6F, -1.0F).normalized();
-  const Packed packed = pack_points(points, shade(scan, thinned, light));
+  const bool in_colors = scan.colors.rows() > 0;
+  const Packed packed =
+      pack_points(points, in_colors ? color_bytes(scan, thinned) : shade(scan, thinned, light));
   json["scan"] = to_json(packed, id);
+  if (in_colors) json["scan"]["in_colors"] = true;
   json["scan"]["true_points"] = scan.points.rows();
   json["scan"]["spacing"] = thinned.spacing;
   json["view"] = view_of(points, scan.view.origin, axes);

@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "nodes/formats/color_image.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/geometry/extreme_points.hpp"
 #include "tools/write_text.hpp"
@@ -35,18 +36,34 @@ std::string lines(const ordered_json& json) {
   return text + "\n}\n";
 }
 
-std::string encode_png(const formats::DepthImage& depth) {
+/// `format`: one of libpng's, of the pixels.
+std::string encode_png(std::size_t width, std::size_t height, png_uint_32 format,
+                       const void* pixels) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(depth.width);
-  image.height = static_cast<png_uint_32>(depth.height);
-  image.format = PNG_FORMAT_LINEAR_Y;  // 16-bit grey, values as they are
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = format;
   std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
   png_alloc_size_t size = bytes.size();
-  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, depth.values.data(), 0, nullptr))
-    throw std::runtime_error(std::string("encoding a depth image: ") + image.message);
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr))
+    throw std::runtime_error(std::string("encoding an image: ") + image.message);
   bytes.resize(size);
   return bytes;
+}
+
+/// In mm. Of a paint as much as the mesh can carry: an image, or a colour a vertex where there are
+/// many.
+void write_model(const fs::path& file, const Mesh& mesh, const Paint* paint) {
+  constexpr Eigen::Index kManyFaces = 3000;
+  if (!paint) return formats::write_ply(file, mesh, 1000);
+  if (mesh.faces.rows() > kManyFaces)
+    return formats::write_ply(file, mesh, 1000, paint_points(mesh, *paint));
+  const PaintedFaces painted = paint_faces(mesh, *paint);
+  const fs::path image = fs::path(file).replace_extension(".png");
+  write_text(image, encode_png(painted.image.width, painted.image.height, PNG_FORMAT_RGB,
+                               painted.image.values.data()));
+  formats::write_ply(file, mesh, 1000, {}, {image.filename().string(), painted.places});
 }
 
 /// Rounded to 1e-9: beyond, mathematics libraries differ, and files should not.
@@ -100,14 +117,17 @@ BopWriter::BopWriter(fs::path out, double least_visible)
     fs::create_directories(folder);  // std::filesystem_error is a runtime_error that names it
 }
 
-void BopWriter::add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& symmetry) {
-  formats::write_ply(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, 1000);
+void BopWriter::add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& symmetry,
+                          const Paint* paint) {
+  write_model(out_ / kModels / ("obj_" + six_digits(obj_id) + ".ply"), mesh, paint);
   ordered_json entry{{"diameter", rounded(geometry::diameter_of(mesh.points) * 1000)}};
   const Eigen::RowVector3f low = mesh.points.colwise().minCoeff();
   const Eigen::RowVector3f size = mesh.points.colwise().maxCoeff() - low;
   const std::string axes[3] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) entry["min_" + axes[axis]] = rounded(low[axis] * 1000.0);
   for (int axis = 0; axis < 3; ++axis) entry["size_" + axes[axis]] = rounded(size[axis] * 1000.0);
+  models_info_[std::to_string(obj_id)] = entry;
+  if (paint) return;
   if (symmetry.is_round)
     entry["symmetries_continuous"] = {{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}};
   for (const Eigen::Vector3d& axis : symmetry.axes)
@@ -124,7 +144,14 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
   const std::string key = std::to_string(im_id), name = six_digits(im_id);
   const Camera& camera = sensor.camera;
   write_text(out_ / kSplit / six_digits(kSceneId) / "depth" / (name + ".png"),
-             encode_png(scan.depth));
+             encode_png(scan.depth.width, scan.depth.height, PNG_FORMAT_LINEAR_Y,  // 16-bit grey
+                        scan.depth.values.data()));
+  if (!scan.colors.values.empty()) {
+    constexpr int kQuality = 92;
+    const fs::path folder = out_ / kSplit / six_digits(kSceneId) / "rgb";
+    fs::create_directories(folder);
+    formats::write_jpeg(scan.colors, kQuality, folder / (name + ".jpg"));
+  }
   formats::write_ply(out_ / kScans / (name + ".ply"), points_of(scan.depth, camera));
   cameras_[key] = {{"cam_K", {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0}},
                    {"depth_scale", camera.depth_scale}};

@@ -101,7 +101,7 @@ std::optional<RayCaster::Hit> RayCaster::first_hit(const Eigen::Vector3d& direct
   const double along = normal.dot(direction);
   const double cosine = std::abs(along) / direction.norm();
   const double distance = cosine > 1e-3 ? normal.dot(a) / along : double{query.ray.tfar};
-  return Hit{body, distance, cosine};
+  return Hit{body, distance, cosine, normal};
 }
 
 }  // namespace posevote

@@ -14,9 +14,10 @@ namespace posevote {
 class RayCaster {
  public:
   struct Hit {
-    std::size_t body;  ///< index into the bodies
-    double distance;   ///< along the ray, in lengths of `direction` [m where that is unit]
-    double cosine;     ///< of the angle between ray and surface normal, in [0, 1]
+    std::size_t body;        ///< index into the bodies
+    double distance;         ///< along the ray, in lengths of `direction` [m where that is unit]
+    double cosine;           ///< of the angle between ray and surface normal, in [0, 1]
+    Eigen::Vector3d normal;  ///< unit, of either side
   };
 
   /// The bodies as seen from the sensor. Throws std::runtime_error if Embree fails.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nodes/data/texture.hpp"
 #include "tools/simulate/scene.hpp"
 #include "tools/simulate/sensor.hpp"
 
@@ -29,6 +30,7 @@ struct BodyView {
 struct SimulatedScan {
   formats::DepthImage depth;
   std::vector<BodyView> views;  ///< one a body
+  ColorImage colors{};          ///< of the same pixels; empty: a sensor without colour
 };
 
 /// BodyView::surface of each object alone, in a fraction of a scan's time; 0 for other bodies.

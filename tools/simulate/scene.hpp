@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
+#include "tools/simulate/paint.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace posevote {
@@ -16,6 +17,9 @@ struct Body {
   std::shared_ptr<const Mesh> mesh;
   int obj_id = 0;  ///< 0: ground or clutter, which nobody looks for
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
+  std::shared_ptr<const Paint> paint{};  ///< null: grey
+  /// From its own frame to that of the thing it was stretched from, which the paint is of.
+  Eigen::Affine3d T_paint_body = Eigen::Affine3d::Identity();
 };
 
 /// A square at z = 0 around the origin.

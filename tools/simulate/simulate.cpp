@@ -13,6 +13,7 @@
 
 #include "graph/parallel.hpp"
 #include "tools/simulate/bop_writer.hpp"
+#include "tools/simulate/color_camera.hpp"
 #include "tools/simulate/own_mesh.hpp"
 #include "tools/simulate/physics.hpp"
 #include "tools/simulate/scanner.hpp"
@@ -39,7 +40,8 @@ using SharedMesh = std::shared_ptr<const Mesh>;
 struct Studio {
   Spec spec;
   std::vector<SharedMesh> models, clutter;
-  std::map<std::string, Sensor> sensors;  ///< as scenes call them
+  std::vector<std::shared_ptr<const Paint>> paints, clutter_paints;  ///< none without colours
+  std::map<std::string, Sensor> sensors;                             ///< as scenes call them
 };
 
 SharedMesh make_model(const ModelSpec& model) {
@@ -70,8 +72,21 @@ std::vector<SharedMesh> make_clutter(const Spec& spec) {
   return clutter;
 }
 
+/// Paints are chosen by streams of their own, so that a set in colour has the same geometry.
+void mix_paints(Studio& studio) {
+  const auto seed = static_cast<std::uint64_t>(studio.spec.seed);
+  for (std::size_t i = 0; i < studio.models.size(); ++i) {
+    const ModelSpec& model = studio.spec.models[i];
+    studio.paints.push_back(std::make_shared<const Paint>(
+        *studio.models[i], model.shape, Random(seed, std::uint64_t{i} << 32U).next()));
+  }
+  for (std::size_t i = 0; i < studio.clutter.size(); ++i)
+    studio.clutter_paints.push_back(std::make_shared<const Paint>(
+        *studio.clutter[i], "", Random(seed, (std::uint64_t{i} + 1) << 48U).next()));
+}
+
 Studio open_studio(const Spec& spec) {
-  Studio studio{spec, {}, {}, {}};
+  Studio studio{spec, {}, {}, {}, {}, {}};
   for (const SceneSpec& scene : spec.scenes)
     if (!studio.sensors.contains(scene.sensor))
       studio.sensors[scene.sensor] = read_sensor(scene.sensor);
@@ -79,15 +94,20 @@ Studio open_studio(const Spec& spec) {
   const auto wants_clutter = [](const SceneSpec& scene) { return scene.clutter > 0; };
   if (std::any_of(studio.spec.scenes.begin(), studio.spec.scenes.end(), wants_clutter))
     studio.clutter = make_clutter(studio.spec);
+  if (spec.colors) mix_paints(studio);
   return studio;
 }
 
 /// No thing is as its model says.
-std::shared_ptr<const Mesh> stretched(const Mesh& mesh, double most, Random& random) {
-  auto out = std::make_shared<Mesh>(mesh);
-  for (int axis = 0; axis < 3; ++axis)
-    out->points.col(axis) *= static_cast<float>(1 + random.uniform(-most, most));
-  return out;
+void stretch(Body& body, double most, Random& random) {
+  auto out = std::make_shared<Mesh>(*body.mesh);
+  Eigen::Vector3d scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    scale[axis] = 1 + random.uniform(-most, most);
+    out->points.col(axis) *= static_cast<float>(scale[axis]);
+  }
+  body.mesh = out;
+  body.T_paint_body.linear() = scale.cwiseInverse().asDiagonal();
 }
 
 /// Objects and clutter, in mixed order unless objects are to lie below, so that either may lie on
@@ -98,10 +118,15 @@ std::vector<Body> arrange(const SceneSpec& scene, const Studio& studio, Random& 
   for (const int obj_id : scene.objects)
     bodies.push_back({studio.models[static_cast<std::size_t>(obj_id) - 1], obj_id,
                       Eigen::Isometry3d::Identity()});
+  if (!studio.paints.empty())
+    for (Body& body : bodies) body.paint = studio.paints[static_cast<std::size_t>(body.obj_id) - 1];
   if (scene.inexact > 0)
-    for (Body& body : bodies) body.mesh = stretched(*body.mesh, scene.inexact, random);
-  for (int i = 0; i < scene.clutter; ++i)
-    bodies.push_back({studio.clutter[random.next() % kClutter], 0, Eigen::Isometry3d::Identity()});
+    for (Body& body : bodies) stretch(body, scene.inexact, random);
+  for (int i = 0; i < scene.clutter; ++i) {
+    const std::size_t which = random.next() % kClutter;
+    bodies.push_back({studio.clutter[which], 0, Eigen::Isometry3d::Identity()});
+    if (!studio.clutter_paints.empty()) bodies.back().paint = studio.clutter_paints[which];
+  }
   for (std::size_t i = scene.objects_below ? 0 : bodies.size(); i > 1; --i)
     std::swap(bodies[i - 1], bodies[random.next() % i]);
   settle(bodies, scene.radius, bin || scene.ground == "fenced", random);
@@ -154,6 +179,11 @@ Image make_image(const Studio& studio, std::size_t index) {
     const std::uint64_t noise = random.next();
     if (!find_view(scene, image)) continue;
     image.scan = scan(image.bodies, image.sensor, image.T_world_sensor, noise);
+    if (studio.spec.colors) {
+      if (image.bodies.back().obj_id == 0 && scene.ground != "unseen")
+        image.bodies.back().paint = std::make_shared<const Paint>(Paint::ground(noise));
+      image.scan.colors = photograph(image.bodies, image.sensor, image.T_world_sensor, noise);
+    }
     return image;
   }
   throw std::runtime_error("image " + std::to_string(index) + ": in " +
@@ -228,7 +258,8 @@ void simulate(const Spec& spec, const fs::path& out, std::size_t step) {
   BopWriter writer(unfinished, spec.least_visible);
   for (std::size_t i = 0; i < studio.models.size(); ++i)
     writer.add_model(static_cast<int>(i) + 1, *studio.models[i],
-                     symmetry_of_model(studio.spec.models[i], *studio.models[i]));
+                     symmetry_of_model(studio.spec.models[i], *studio.models[i]),
+                     studio.paints.empty() ? nullptr : studio.paints[i].get());
   make_images(studio, step, writer);
   writer.finish();
   if (!exists) return fs::rename(unfinished, folder);

@@ -72,6 +72,7 @@ const std::vector<ParamSpec>& scene_params() {
 const std::vector<ParamSpec>& file_params() {
   static const std::vector<ParamSpec> params{
       make_param<Spec>("seed", &Spec::seed, "", "Poses and noise.", in_range(0, 1e9)),
+      make_param<Spec>("colors", &Spec::colors, "", "Things are painted.", {}),
       make_param<Spec>("clutter_size", &Spec::clutter_size, "m", "Of the largest clutter.",
                        in_range(0.005, 2)),
       make_param<Spec>("least_visible", &Spec::least_visible, "", "Of instances that count.",

@@ -38,6 +38,7 @@ struct SceneSpec {
 
 struct Spec {
   int seed = 1;
+  bool colors = false;         ///< things are painted, and photographed beside the scan
   double least_visible = 0.1;  ///< share of an instance's pixels; less visible ones do not count
   double clutter_size = 0.2;   ///< longest side of the largest clutter; the least is 0.4 of it [m]
   std::vector<ModelSpec> models;  ///< obj_id 1, 2 ...

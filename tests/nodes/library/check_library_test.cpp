@@ -55,6 +55,8 @@ TEST_CASE("a library is refused for every value that nodes could not rely on", "
       {"feature points lie outside", [](Model& m) { m.features.points(1, 1) = -50; }},
       {"points that are not finite", [](Model& m) { m.cloud.points(1, 1) = kNan; }},
       {"a cloud has no points", [](Model& m) { m.cloud = {}; }},
+      {"colours are not of all points", [](Model& m) { m.cloud.colors.setZero(2, 3); }},
+      {"colours are not finite", [](Model& m) { m.cloud.colors.setConstant(3, 3, kNan); }},
       {"0 normals, expected 3", [](Model& m) { m.cloud.normals.resize(0, 3); }},
       {"2 normals, expected 3", [](Model& m) { m.cloud.normals.conservativeResize(2, 3); }},
       {"normal 2 has a squared length of 4", [](Model& m) { m.cloud.normals.row(2) *= 2; }},

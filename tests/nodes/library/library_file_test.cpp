@@ -43,7 +43,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{10});
+  out.put(std::uint32_t{11});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -104,6 +104,20 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
     CHECK(before[i].row[0] == after[i].row[0]);
     CHECK(before[i].squared[1] == after[i].squared[1]);
   }
+}
+
+TEST_CASE("colours come back with a library", "[match][color]") {
+  const TemporaryFolder folder;
+  ModelLibrary library = example();
+  Model painted = *library.models[1];
+  painted.cloud.colors = ColorMatrix::Random(painted.cloud.points.rows(), 3).cwiseAbs();
+  library.models[1] = std::make_shared<const Model>(painted);
+  library::save_library(library, folder / "a", kKey);
+  std::string why_not;
+  const auto loaded = library::load_library(folder / "a", kKey, why_not);
+  REQUIRE(loaded);
+  CHECK(loaded->models[0]->cloud.colors.rows() == 0);
+  CHECK(loaded->models[1]->cloud.colors == painted.cloud.colors);
 }
 
 TEST_CASE("how a library is searched is kept in its file", "[match]") {

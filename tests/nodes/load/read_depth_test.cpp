@@ -11,11 +11,16 @@ namespace {
 
 const Camera kCamera{500, 400, 1.5, 0.5, 0.1};
 
+Scan read_points(const std::filesystem::path& path, const Camera& camera,
+                 const load::DepthRange& range) {
+  return load::points_of(load::read_depth(path, camera), camera, range);
+}
+
 std::string depth_error(const std::string& bytes, const Camera& camera = kCamera,
                         const load::DepthRange& range = {}) {
   const TempDir dir;
   const auto path = dir.write("depth.png", bytes);
-  return error_of([&] { load::read_depth(path, camera, range); });
+  return error_of([&] { read_points(path, camera, range); });
 }
 
 void put_big_endian(std::string& bytes, std::size_t at, std::uint32_t value) {
@@ -45,7 +50,7 @@ TEST_CASE("Depth image: pixels become points right, down and forward", "[load][d
   for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
     const auto path =
         dir.write("depth.png", depth_png(4, 2, {0, 10000, 0, 20000, 5000, 0, 0, 258}, interlace));
-    const Scan scan = load::read_depth(path, kCamera, {});
+    const Scan scan = read_points(path, kCamera, {});
     REQUIRE(scan.points.rows() == 4);
     CHECK(scan.points.row(0).isApprox(
         Eigen::RowVector3f(-0.5F / 500, -0.5F / 400, 1)));  // u = 1, v = 0, 10000 x 0.1 mm
@@ -63,13 +68,10 @@ TEST_CASE("Depth image: pixels become points right, down and forward", "[load][d
 TEST_CASE("Depth image: limits", "[load][depth]") {
   const TempDir dir;
   const auto path = dir.write("depth.png", depth_png(3, 1, {5000, 10000, 20000}));
-  CHECK(load::read_depth(path, kCamera, {0.6, 0}).points.rows() == 2);
-  CHECK(load::read_depth(path, kCamera, {0, 1.5}).points.rows() == 2);
-  CHECK(load::read_depth(path, kCamera, {0.6, 1.5}).points.rows() == 1);
-  CHECK_THAT(error_of([&] {
-               load::read_depth(path, kCamera, {3, 4});
-             }),
-             has("none of the image's 3"));
+  CHECK(read_points(path, kCamera, {0.6, 0}).points.rows() == 2);
+  CHECK(read_points(path, kCamera, {0, 1.5}).points.rows() == 2);
+  CHECK(read_points(path, kCamera, {0.6, 1.5}).points.rows() == 1);
+  CHECK_THAT(error_of([&] { read_points(path, kCamera, {3, 4}); }), has("none of the image's 3"));
   CHECK_THAT(depth_error(depth_png(2, 2, {0, 0, 0, 0})), has("none of the image's 4 pixels"));
 }
 

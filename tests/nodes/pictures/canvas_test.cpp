@@ -47,6 +47,17 @@ TEST_CASE("what is nearer is seen, in whatever order it is drawn", "[write]") {
   }
 }
 
+TEST_CASE("an outline is the edge of what was drawn on another canvas", "[write][color]") {
+  pictures::Canvas canvas(40, 30, kWhite), shape(40, 30, kWhite);
+  shape.draw(disc(20, 15, 1, 8), kGreen);
+  canvas.outline(shape, 2, kRed);
+  const Picture picture = saved(canvas);
+  CHECK(picture.at(27, 15) == formats::Rgb{255, 0, 0});
+  CHECK(picture.at(20, 22) == formats::Rgb{255, 0, 0});
+  CHECK(picture.at(20, 15) == formats::Rgb{255, 255, 255});
+  CHECK(picture.at(32, 15) == formats::Rgb{255, 255, 255});
+}
+
 TEST_CASE("a disc is round; tilted, it is narrow and its depth varies", "[write]") {
   pictures::Canvas canvas(60, 60, kWhite);
   canvas.draw(disc(30, 30, 10, 20), kGreen);

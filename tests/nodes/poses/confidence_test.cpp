@@ -22,7 +22,8 @@ poses::Fit good_fit() {
 }
 
 double believed(const poses::Fit& fit, const poses::Backing& backing = {1, 0.5, 2}) {
-  return poses::confidence_of(poses::clues_of(fit, backing), {});
+  return poses::probability_of(
+      poses::log_odds_of(poses::clues_of(fit, backing), poses::ConfidenceTerms()));
 }
 
 }  // namespace

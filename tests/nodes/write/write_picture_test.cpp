@@ -51,6 +51,21 @@ Cloud wall() {
 
 }  // namespace
 
+TEST_CASE("write_picture shows a scan's colours, and outlines of what was found",
+          "[write][color]") {
+  Cloud scan = wall();
+  scan.colors = ColorMatrix::Zero(scan.points.rows(), 3);
+  scan.colors.col(2).setOnes();
+  const Picture picture = draw(scan, {{make_detection({0.1, -0.05, 0.99})}});
+  const auto is_blue = [](const formats::Rgb& pixel) { return pixel[2] > 250 && pixel[0] < 5; };
+  const double blue = middle_of(picture, is_blue).z();
+  CHECK(blue > 0.8 * picture.width * picture.height);
+  const Eigen::Vector3d red = middle_of(picture, is_red);
+  CHECK(red.x() == Approx(0.5 + 0.1 / 0.99 / (0.4 * 1.06)).margin(0.01));
+  const double filled = middle_of(draw(wall(), {{make_detection({0.1, -0.05, 0.99})}}), is_red).z();
+  CHECK(red.z() < 0.5 * filled);
+}
+
 TEST_CASE("write_picture shows the scan whole and the model where it was found", "[write]") {
   const Picture picture = draw(wall(), {{make_detection({0.1, -0.05, 0.99})}});
   CHECK(picture.width == 1280);

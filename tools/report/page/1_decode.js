@@ -48,10 +48,15 @@ posevote.colours = (() => {
   const density =
       ramp([[0, 250, 236, 170], [0.4, 252, 165, 10], [0.7, 200, 60, 70], [0.9, 100, 20, 110], [1, 20, 5, 50]]);
   const grey = (share) => [1, 1, 1].map((c) => Math.round(255 * (0.2 + 0.58 * share)));
+  /// Of a byte, as a share of 255: three bits of red, three of green, two of blue.
+  function own(share) {
+    const byte = Math.round(255 * share);
+    return [(byte >> 5) / 7, ((byte >> 2) & 7) / 7, (byte & 3) / 3].map((c) => Math.round(255 * c));
+  }
   const css = (rgb) => `rgb(${rgb.join(', ')})`;
   const gradient = (of) =>
       `linear-gradient(to right, ${[...Array(11).keys()].map((i) => css(of(i / 10))).join(', ')})`;
-  return {confidence, density, grey, css, gradient, truth: [214, 0, 147]};
+  return {confidence, density, grey, own, css, gradient, truth: [214, 0, 147]};
 })();
 
 /// An element with text or children, which are never read as markup.

@@ -93,7 +93,7 @@ posevote.scene = (() => {
         list.push({kind, title, colour, object, visible, item});
     if (scan.scan)
       add('scan', 'points', [140, 140, 140],
-          cloud(scan.scan, posevote.colours.grey,
+          cloud(scan.scan, scan.scan.in_colors ? posevote.colours.own : posevote.colours.grey,
                 yieldTo(discs(1.3 * scan.scan.spacing), 2.5 * scan.scan.spacing)), true, scan.scan);
     const posed = (item, make) => {
       const model = run.models[item.model];
@@ -102,7 +102,9 @@ posevote.scene = (() => {
     const name = (item) => run.models[item.model].name;
     for (const item of scan.found) {
       const colour = posevote.colours.confidence(item.confidence);
-      add('found', name(item), colour, posed(item, (model) => solid(model, colour, 1)), true, item);
+      const opacity = scan.scan && scan.scan.in_colors ? 0.6 : 1;  // the colours show through
+      add('found', name(item), colour, posed(item, (model) => solid(model, colour, opacity)), true,
+          item);
     }
     for (const item of scan.rejected) {
       const colour = posevote.colours.confidence(item.confidence);

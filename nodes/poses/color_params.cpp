@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each term of ColorTerms is, as term_params.cpp says it of the others.
+#include "nodes/poses/register_terms.hpp"
+
+namespace posevote::poses {
+
+using graph::at_least;
+using graph::greater_than;
+using graph::in_range;
+
+void add_color_terms(Node& node) {
+  using G = ColorTerms;
+  const Register<G> term{node, &Terms::color};
+  term("color_lightness", &G::lightness, "x chromaticity",
+       "What a difference of lightness counts beside one of chromaticity: shading changes it, too.",
+       at_least(0));
+  term("color_noise", &G::noise, "CIELAB",
+       "Deviation that says nothing, so that a plain surface is like no other.", greater_than(0));
+  term("color_patch", &G::patch, "x diagonal",
+       "Edge of the places whose colours count as one, because neighbours are alike.",
+       in_range(0.001, 1));
+  term("color_step", &G::step, "deg",
+       "Of the turns about an axis of symmetry that are tried. Finer ones find narrow labels and "
+       "take longer.",
+       in_range(1, 180));
+  term("color_glance_points", &G::glance_points, "points",
+       "Model points that judge such a turn. Time grows with it.", in_range(20, 1000000));
+  term("color_look_points", &G::look_points, "points",
+       "Model points that judge the colours of a pose.", in_range(20, 1000000));
+  term("color_scatter", &G::scatter, "CIELAB",
+       "Deviation of what is seen from what is expected, of true poses. Larger asks less likeness "
+       "of them.",
+       greater_than(0));
+  term("color_most_patches", &G::most_patches, "places",
+       "More do not make the likeness more certain: they err alike.", greater_than(0));
+  term("color_tint", &G::tint, "CIELAB",
+       "Deviation of the mean chromaticity, of true poses: light and camera.", greater_than(0));
+  term("color_any_tint", &G::any_tint, "CIELAB", "And of any surface's.", greater_than(0));
+  term("confidence_color_offset", &G::offset, "log odds",
+       "Confidence that colours add whatever they say. Found by posevote calibrate --colors.",
+       in_range(-1e6, 1e6));
+  const auto weight = [&](const char* name, double ColorClues::*clue) {
+    node.expert_param(
+        name, [clue](SegmentParams& params) -> double& { return params.terms.color.weights.*clue; },
+        "log odds", "Weight of that clue in the confidence. Found by posevote calibrate --colors.",
+        in_range(-1e6, 1e6));
+  };
+  weight("confidence_color_likeness", &ColorClues::likeness);
+  weight("confidence_color_tint", &ColorClues::tint);
+}
+
+}  // namespace posevote::poses
