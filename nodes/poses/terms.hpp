@@ -62,6 +62,7 @@ struct ColorTerms {
   double lightness = 0.7;  ///< x chromaticity
   double noise = 3;        ///< units of CIELAB
   double patch = 0.06;     ///< x diagonal
+  double err_alike = 8;    ///< points
   double step = 12;        ///< of turns about an axis [deg]
   int glance_points = 300, look_points = 1000;
   double scatter = 12, most_patches = 20, tint = 9, any_tint = 25;

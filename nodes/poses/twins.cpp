@@ -35,8 +35,12 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
   Standing highest{0, candidate.rank};
   for (const Candidate& twin : twins) {
     const double by_color = color_lead(twin.colors, candidate.colors);
-    const double lead = lead_over(sought, candidate, twin) + by_color;
-    const double enough = by_color == 0 ? telling : 0;  // colours leave no need to ask the ranks
+    const double by_shape = lead_over(sought, candidate, twin);
+    // Beside colours, whose places are apart, points that err alike must not count each; and what
+    // colours tell leaves no need to ask the ranks.
+    const double lead =
+        by_color == 0 ? by_shape : by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
+    const double enough = by_color == 0 ? telling : 0;
     if (lead < -enough) continue;
     const Standing standing = lead > enough ? Standing{lead, 0} : Standing{0, twin.rank};
     if (standing <= highest || !taken.is_clear(sought.model, twin.T_scene_model)) continue;
