@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -20,6 +21,8 @@ namespace posevote {
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::string kEnding = ".library";
 
 std::string symmetry_text(const ModelFile& model) {
   if (!model.symmetries) return "";
@@ -90,6 +93,23 @@ void leave_out(const graph::Failure& failure, ModelFiles& models,
   models = std::move(kept);
 }
 
+/// Takes away libraries that nobody has used for a month, as those of former builds, and what killed
+/// processes left half written ("KEY.library.1a2b.tmp"). What others have put there stays.
+void tidy_cache(const fs::path& folder) {
+  constexpr auto kLibraries = std::chrono::days(30), kHalves = std::chrono::days(1);
+  constexpr std::size_t kKeyLength = 32;
+  const auto now = fs::file_time_type::clock::now();
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find(kEnding) != kKeyLength) continue;
+    const bool is_whole = name.ends_with(kEnding);
+    if (!is_whole && !name.ends_with(".tmp")) continue;
+    const auto written = fs::last_write_time(entry.path(), none);
+    if (!none && now - written > (is_whole ? kLibraries : kHalves)) fs::remove(entry.path(), none);
+  }
+}
+
 std::string all_failed(const std::vector<LeftOutModel>& left_out) {
   std::string text = "no model can be used";
   for (const LeftOutModel& model : left_out) text += "; " + model.why;
@@ -153,11 +173,13 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
     text += identity_of(model);
   }
   const std::string key = formats::hash_files(files, text);
-  const fs::path file = folder / (key + ".library");
+  const fs::path file = folder / (key + kEnding);
   if (fs::exists(file)) {
     std::string why_not;
     auto library = library::load_library(file, key, why_not);
     if (library && (bad == BadModels::kLeaveOut || library->left_out.empty())) {
+      std::error_code read_only;
+      fs::last_write_time(file, fs::file_time_type::clock::now(), read_only);  // for tidy_cache
       tell_odd_sizes(configuration, *library, models);
       return std::make_shared<const ModelLibrary>(std::move(*library));
     }
@@ -167,6 +189,7 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
   try {
     fs::create_directories(folder);
     library::save_library(*library, file, key);
+    tidy_cache(folder);
   } catch (const std::exception& error) {
     spdlog::warn("the library is not cached: {}", error.what());
   }

@@ -9,12 +9,11 @@ using namespace posevote;
 using namespace posevote::test;
 
 TEST_CASE("a plan says how it is wired and what its parameters are", "[plan]") {
-  const graph::Plan plan =
-      plan_of(kHead +
-              "  last: {node: add, in: [b, n], out: r}\n"
-              "  first: {node: multiply, in: n, out: b, factor: 3}\n");
+  const graph::Plan plan = plan_of(kHead +
+                                   "  last: {node: add, in: [b, n], out: r}\n"
+                                   "  first: {node: multiply, in: n, out: b, factor: 3}\n");
   CHECK(graph::wiring(plan) == std::map<std::string, std::string>{{"first", "multiply(n) -> b"},
-                                                                   {"last", "add(b, n) -> r"}});
+                                                                  {"last", "add(b, n) -> r"}});
   const graph::PlannedNode* first = graph::find_type(plan, "multiply");
   REQUIRE(first);
   CHECK(first->name == "first");

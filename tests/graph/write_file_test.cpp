@@ -11,6 +11,8 @@
 
 using namespace posevote;
 using Catch::Contains;
+using graph::sync_file;
+using graph::write_durably;
 using graph::write_file;
 using test::read_text;
 namespace fs = std::filesystem;

@@ -58,9 +58,7 @@ struct Batch {
       for (const char* list : {"detections", "rejected"})
         for (nlohmann::json& detection : frame[list]) detection.erase("seconds");
     }
-    for (nlohmann::json& node : results["nodes"])
-      for (const char* key : {"total_s", "mean_s", "max_s", "share"}) node.erase(key);
-    return results;
+    return results["frames"];
   }
   void copy(const std::string& from, const std::string& to) const {
     fs::remove_all(folder / to);

@@ -12,9 +12,11 @@ using Catch::Contains;
 
 namespace {
 
-const std::string kNoPictures =
-    " --quiet --set write_picture.every=0 --set write_overlay.every=0 --cache " +
-    (world().folder / "cache/posevote").string();
+/// Options of every run here: quick, and with models that are prepared once.
+std::string options_of_all() {
+  return " --quiet --set write_picture.every=0 --set write_overlay.every=0 --cache " +
+         (world().folder / "cache/posevote").string();
+}
 
 /// A data set with a run on its first of three images.
 struct BegunRun {
@@ -22,17 +24,26 @@ struct BegunRun {
   fs::path set = folder / "set", out = folder / "out", images = set / "test/000001";
   std::string config = "demo", options;
 
+  /// A copy of one that was run once for all.
   BegunRun() {
-    fs::copy(world().folder / "data", set, fs::copy_options::recursive);
-    const CommandResult begun = run("--shard 1/3");
-    INFO(begun.output);
-    REQUIRE(begun.status == 0);
+    static const TemporaryFolder begun;
+    if (!fs::exists(begun / "out")) {
+      fs::copy(world().folder / "data", begun / "set", fs::copy_options::recursive);
+      fs::remove_all(begun / "set/scans");
+      const CommandResult first = run_in(begun, "--shard 1/3");
+      INFO(first.output);
+      REQUIRE(first.status == 0);
+    }
+    fs::copy(begun.path(), folder.path(), fs::copy_options::recursive);
   }
 
-  CommandResult run(const std::string& more) const {
-    return run_posevote(folder, "run " + config + " --dataset " + set.string() + " --out " +
-                                    out.string() + kNoPictures + " " + options + " " + more);
+  CommandResult run_in(const TemporaryFolder& place, const std::string& more) const {
+    const fs::path data = place.path() == folder.path() ? set : place / "set";
+    return run_posevote(place, "run " + config + " --dataset " + data.string() + " --out " +
+                                   (place / "out").string() + options_of_all() + " " + options +
+                                   " " + more);
   }
+  CommandResult run(const std::string& more) const { return run_in(folder, more); }
 
   std::string text(const std::string& file) const { return read_text(folder / file); }
   void replace(const std::string& file, const std::string& from, const std::string& to) const {
