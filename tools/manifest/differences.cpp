@@ -84,17 +84,24 @@ std::vector<std::string> differences(const Manifest& before, const Manifest& now
 }
 
 void take_up(const std::filesystem::path& out, Manifest& now) {
-  const std::filesystem::path file = out / "run.json";
-  const std::optional<Manifest> before = read_manifest(out);
+  const std::string file = (out / "run.json").string();
+  const auto fail_unknown = [](const std::string& why) {
+    throw std::invalid_argument(why +
+                                ": what the run to resume was is not known; choose another --out");
+  };
+  std::optional<Manifest> before;
+  try {
+    before = read_manifest(out);
+  } catch (const std::runtime_error& error) {
+    fail_unknown(error.what());
+  }
   if (!before) {
     if (formats::read_frames(out / "results.json", "frame").items.empty()) return;
-    throw std::invalid_argument(file.string() +
-                                ": is not there: what the run to resume was is not known; choose "
-                                "another --out");
+    fail_unknown(file + ": is not there");
   }
   const std::vector<std::string> all = differences(*before, now);
   if (!all.empty())
-    throw std::invalid_argument(file.string() + ": the run to resume is another: " + some(all) +
+    throw std::invalid_argument(file + ": the run to resume is another: " + some(all) +
                                 "; choose another --out");
   now.starts.insert(now.starts.begin(), before->starts.begin(), before->starts.end());
 }
