@@ -85,19 +85,16 @@ std::vector<std::string> differences(const Manifest& before, const Manifest& now
 
 void take_up(const std::filesystem::path& out, Manifest& now) {
   const std::string file = (out / "run.json").string();
-  const auto fail_unknown = [](const std::string& why) {
-    throw std::invalid_argument(why +
-                                ": what the run to resume was is not known; choose another --out");
-  };
+  const std::string unknown = ": what the run to resume was is not known; choose another --out";
   std::optional<Manifest> before;
   try {
     before = read_manifest(out);
   } catch (const std::runtime_error& error) {
-    fail_unknown(error.what());
+    throw std::runtime_error(error.what() + unknown);
   }
   if (!before) {
     if (formats::read_frames(out / "results.json", "frame").items.empty()) return;
-    fail_unknown(file + ": is not there");
+    throw std::invalid_argument(file + ": is not there" + unknown);
   }
   const std::vector<std::string> all = differences(*before, now);
   if (!all.empty())

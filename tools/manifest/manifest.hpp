@@ -65,7 +65,8 @@ std::optional<Manifest> read_manifest(const std::filesystem::path& out);
 std::vector<std::string> differences(const Manifest& before, const Manifest& now);
 
 /// Makes `now` a further start of the run in `out`. Throws std::invalid_argument that names what
-/// differs where that is another run, or that its manifest is gone or damaged.
+/// differs where that is another run, or nobody knows which it is, and std::runtime_error where its
+/// manifest is damaged.
 void take_up(const std::filesystem::path& out, Manifest& now);
 
 /// Words as one line for a shell.
