@@ -13,8 +13,8 @@
 
 #include "graph/plugin.hpp"
 #include "graph/runner.hpp"
-#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/units.hpp"
+#include "nodes/library/content_hash.hpp"
 #include "nodes/library/library_file.hpp"
 
 namespace posevote {
@@ -172,7 +172,7 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
     for (fs::path& file : files_of(model)) files.push_back(std::move(file));
     text += identity_of(model);
   }
-  const std::string key = formats::hash_files(files, text);
+  const std::string key = library::hash_files(files, text);
   const fs::path file = folder / (key + kEnding);
   if (fs::exists(file)) {
     std::string why_not;
@@ -197,7 +197,7 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
 }
 
 std::string hash_model(const ModelFile& model) {
-  return formats::hash_files(files_of(model), identity_of(model));
+  return library::hash_files(files_of(model), identity_of(model));
 }
 
 fs::path default_cache() {
@@ -209,7 +209,7 @@ fs::path default_cache() {
 }
 
 std::string library_key(const Configuration& configuration) {
-  return formats::hash_files({}, training_parameters(configuration.models));
+  return library::hash_files({}, training_parameters(configuration.models));
 }
 
 }  // namespace posevote

@@ -9,9 +9,9 @@
 
 #include "graph/parallel.hpp"
 #include "graph/write_file.hpp"
-#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/json_text.hpp"
 #include "nodes/formats/results_tables.hpp"
+#include "nodes/formats/scan_hash.hpp"
 
 namespace posevote::formats {
 namespace {

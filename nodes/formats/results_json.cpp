@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/json_text.hpp"
+#include "nodes/library/content_hash.hpp"
 
 namespace posevote::formats {
 namespace {
@@ -118,7 +118,7 @@ std::string line(const ordered_json& json) {
 std::string record(const ordered_json& json) {
   std::string text = line(json);
   text.pop_back();  // }
-  return text + kSum + checksum(text) + "\"}";
+  return text + kSum + library::checksum(text) + "\"}";
 }
 
 ordered_json camera_json(const std::optional<Camera>& camera) {
@@ -203,12 +203,12 @@ namespace {
 
 /// Takes the checksum off a line. False where it is wrong, or is not there and must be.
 bool check_sum(std::string& text, NoChecksum unsure) {
-  const std::size_t length = kSum.size() + checksum("").size() + 2;  // "}
+  const std::size_t length = kSum.size() + library::checksum("").size() + 2;  // "}
   if (text.size() <= length || text.compare(text.size() - length, kSum.size(), kSum) != 0)
     return unsure == NoChecksum::kTake;
   const std::string sum = text.substr(text.size() - length);
   text.resize(text.size() - length);
-  if (sum != kSum + checksum(text) + "\"}") return false;
+  if (sum != kSum + library::checksum(text) + "\"}") return false;
   text += '}';
   return true;
 }

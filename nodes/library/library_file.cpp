@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "graph/write_file.hpp"
-#include "nodes/formats/content_hash.hpp"
+#include "nodes/library/content_hash.hpp"
 #include "nodes/library/library_payload.hpp"
 
 namespace posevote::library {
@@ -42,16 +42,14 @@ ModelLibrary parse(std::string_view bytes, const std::string& key) {
     throw std::runtime_error("was made from other models or with other parameters");
   const std::string_view checksum = in.get_text();
   const std::string_view payload = in.get_text();
-  if (!in.rest().empty() || formats::checksum(payload) != checksum)
+  if (!in.rest().empty() || library::checksum(payload) != checksum)
     throw std::runtime_error("is damaged: its checksum is wrong");
   return decode_library(payload);
 }
 
 }  // namespace
 
-std::string hash_library(const ModelLibrary& library) {
-  return formats::checksum(encode_library(library));
-}
+std::string hash_library(const ModelLibrary& library) { return checksum(encode_library(library)); }
 
 void save_library(const ModelLibrary& library, const fs::path& path, const std::string& key) {
   if (fs::exists(path) && !fs::is_regular_file(path)) fail(path, "is there, and no plain file");
@@ -60,7 +58,7 @@ void save_library(const ModelLibrary& library, const fs::path& path, const std::
   for (const char letter : kMagic) out.put(letter);
   out.put(kVersion);
   out.put(key);
-  out.put(formats::checksum(payload));
+  out.put(checksum(payload));
   out.put(payload);
   graph::write_file(path, out.bytes());
 }

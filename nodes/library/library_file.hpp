@@ -27,7 +27,7 @@ void save_library(const ModelLibrary& library, const std::filesystem::path& path
 std::optional<ModelLibrary> load_library(const std::filesystem::path& path, const std::string& key,
                                          std::string& why_not);
 
-/// formats::checksum of all that a library holds.
+/// checksum (content_hash.hpp) of all that a library holds.
 std::string hash_library(const ModelLibrary& library);
 
 }  // namespace posevote::library

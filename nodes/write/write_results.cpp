@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
-#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/results_writer.hpp"
+#include "nodes/formats/scan_hash.hpp"
 
 namespace posevote::write {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "graph/plugin.hpp"
 #include "graph/wiring.hpp"
-#include "nodes/formats/content_hash.hpp"
+#include "nodes/library/content_hash.hpp"
 #include "nodes/library/library_file.hpp"
 #include "pipelines/library.hpp"
 #include "pipelines/recognizer.hpp"
@@ -55,7 +55,7 @@ Manifest describe_run(const RunCommand& command, const Configuration& configurat
                       std::vector<SceneEntry> scans) {
   Manifest run;
   run.version = version();
-  run.code = formats::hash_files(graph::code_files(), "");
+  run.code = library::hash_files(graph::code_files(), "");
   run.seed = command.seed;
   for (const graph::Plan* plan : {static_cast<const graph::Plan*>(&configuration.models),
                                   static_cast<const graph::Plan*>(&configuration.scenes)}) {

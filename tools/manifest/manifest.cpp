@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "graph/write_file.hpp"
-#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/json_text.hpp"
 #include "nodes/formats/results_json.hpp"
+#include "nodes/library/content_hash.hpp"
 
 namespace posevote {
 namespace {
@@ -108,7 +108,7 @@ Manifest to_manifest(const Json& json) {
   return run;
 }
 
-std::string checksum_of(const Json& json) { return formats::checksum(formats::line(json)); }
+std::string checksum_of(const Json& json) { return library::checksum(formats::line(json)); }
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "nodes/formats/content_hash.hpp"
+#include "nodes/formats/scan_hash.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;

@@ -8,9 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nodes/data/files.hpp"
-
-namespace posevote::formats {
+namespace posevote::library {
 
 std::string checksum(std::string_view bytes);
 
@@ -18,8 +16,4 @@ std::string checksum(std::string_view bytes);
 /// file that cannot be read.
 std::string hash_files(const std::vector<std::filesystem::path>& files, const std::string& text);
 
-/// Of a scan's file, and of the one beside it that says where the sensor stood. "" where the scan is
-/// in memory. Throws std::runtime_error naming a file that cannot be read.
-std::string hash_scan(const SceneFile& scan);
-
-}  // namespace posevote::formats
+}  // namespace posevote::library

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/formats/content_hash.hpp"
+#include "nodes/library/content_hash.hpp"
 
 #include <xxhash.h>
 
@@ -9,9 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "nodes/formats/sensor_pose.hpp"
-
-namespace posevote::formats {
+namespace posevote::library {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,13 +60,4 @@ std::string hash_files(const std::vector<fs::path>& files, const std::string& te
   return hex(XXH3_128bits_digest(state.get()));
 }
 
-std::string hash_scan(const SceneFile& scan) {
-  if (scan.points || scan.depth) return "";
-  std::vector<fs::path> files{scan.path};
-  const fs::path pose = pose_file_of(scan.path);
-  std::error_code is_loop;
-  if (fs::exists(fs::symlink_status(pose, is_loop))) files.push_back(pose);
-  return hash_files(files, "");
-}
-
-}  // namespace posevote::formats
+}  // namespace posevote::library
