@@ -12,6 +12,7 @@
 
 #include "graph/plugin.hpp"
 #include "graph/runner.hpp"
+#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/units.hpp"
 #include "nodes/library/library_file.hpp"
 
@@ -41,15 +42,15 @@ std::string mesh_bytes(const Mesh& mesh) {
   return bytes_of(mesh.points) + bytes_of(mesh.normals) + bytes_of(mesh.faces);
 }
 
-/// The parameters, and obj_id, name and given symmetries of each model: bytes alone do not say which
-/// object it is.
-std::string parameters_with_names(const Configuration& configuration, const ModelFiles& models) {
-  std::string text = training_parameters(configuration.models);
-  for (const ModelFile& model : models) {
-    text += std::to_string(model.obj_id) + " " + model.name + " " + symmetry_text(model) + "\n";
-    if (model.mesh) text += mesh_bytes(*model.mesh);
-  }
-  return text;
+/// Its obj_id, name and given symmetries: bytes alone do not say which object it is.
+std::string identity_of(const ModelFile& model) {
+  const std::string text =
+      std::to_string(model.obj_id) + " " + model.name + " " + symmetry_text(model) + "\n";
+  return model.mesh ? text + mesh_bytes(*model.mesh) : text;
+}
+
+std::vector<fs::path> files_of(const ModelFile& model) {
+  return model.mesh ? std::vector<fs::path>() : std::vector<fs::path>{model.path};
 }
 
 /// The cause by the model's number. The graph numbers the objects of a node that runs once for each:
@@ -146,9 +147,12 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
                                                    BadModels bad, graph::Activity* activity) {
   // The same models and parameters give another library after a change of the nodes.
   std::vector<fs::path> files = graph::code_files();
-  for (const ModelFile& model : models)
-    if (!model.mesh) files.push_back(model.path);
-  const std::string key = library::hash_files(files, parameters_with_names(configuration, models));
+  std::string text = training_parameters(configuration.models);
+  for (const ModelFile& model : models) {
+    for (fs::path& file : files_of(model)) files.push_back(std::move(file));
+    text += identity_of(model);
+  }
+  const std::string key = formats::hash_files(files, text);
   const fs::path file = folder / (key + ".library");
   if (fs::exists(file)) {
     std::string why_not;
@@ -169,6 +173,10 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
   return library;
 }
 
+std::string hash_model(const ModelFile& model) {
+  return formats::hash_files(files_of(model), identity_of(model));
+}
+
 fs::path default_cache() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
     return fs::path(cache) / "posevote";
@@ -178,7 +186,7 @@ fs::path default_cache() {
 }
 
 std::string library_key(const Configuration& configuration) {
-  return library::hash_files({}, training_parameters(configuration.models));
+  return formats::hash_files({}, training_parameters(configuration.models));
 }
 
 }  // namespace posevote

@@ -45,6 +45,10 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
                                                    BadModels bad = BadModels::kStop,
                                                    graph::Activity* activity = nullptr);
 
+/// Of a model's file, name, number and given symmetries, or of its mesh: what tells it from another.
+/// Throws std::runtime_error naming a file that cannot be read.
+std::string hash_model(const ModelFile& model);
+
 /// Where libraries are cached unless --cache says otherwise: $XDG_CACHE_HOME/posevote or
 /// ~/.cache/posevote.
 std::filesystem::path default_cache();

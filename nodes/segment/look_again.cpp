@@ -2,10 +2,10 @@
 // In a stream, looks whether the instances of the frame before are still there, before anything is
 // described. One that is costs a look: ICP from where it was, and the judgement of any other, by the
 // rules that segment_new_objects handed on with it; the surest first, each taking out of the scan
-// what it explains. Where all are still there, nothing else is sought but in every `search_every`th
-// frame, if any object may have more instances: no feature point is left to describe, so that the
-// nodes that follow have nothing to do. In the others, and where an instance is lost, the feature
-// points that no instance explains are left.
+// what it explains. Where there were some and all are still there, nothing else is sought but in every
+// `search_every`th frame, if any object may have more instances: no feature point is left to
+// describe, so that the nodes that follow have nothing to do. Else the feature points that no
+// instance explains are left.
 //
 // What its poses differ by from frame to frame, as noise does, is averaged (poses/steady.hpp).
 //
@@ -160,7 +160,7 @@ Sightings see(const Cloud& cloud, const Scale& scale, const ModelLibrary& librar
   now.params = before.params;
   now.items = keep(before, looks, scan, params.steady);
   const bool is_due = before.frames_since_search + 1 >= params.search_every;
-  now.is_searched = now.items.size() < before.items.size() ||
+  now.is_searched = before.items.empty() || now.items.size() < before.items.size() ||
                     (is_due && now.items.size() < most_instances(library, before.params));
   now.frames_since_search = now.is_searched ? 0 : before.frames_since_search + 1;
   return now;

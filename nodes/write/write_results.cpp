@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "graph/registry.hpp"
+#include "nodes/formats/content_hash.hpp"
 #include "nodes/formats/results_writer.hpp"
 
 namespace posevote::write {
@@ -50,6 +51,10 @@ formats::FrameReport report_of(const SceneFile& file, const graph::FrameContext&
     for (const std::string& what : stage.warnings) report.warnings.push_back({stage.node, what});
   }
   report.seconds = graph::cost(spans);
+  try {
+    report.scan_hash = formats::hash_scan(file);
+  } catch (const std::runtime_error&) {  // it has gone meanwhile: nobody can say what it held
+  }
   return report;
 }
 

@@ -4,26 +4,19 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "graph/wiring.hpp"
 #include "graph/yaml_reader.hpp"
-#include "nodes/library/library_file.hpp"
-#include "pipelines/inputs.hpp"
-#include "pipelines/library.hpp"
 
 namespace posevote::explain {
 namespace {
 
 namespace fs = std::filesystem;
 
-const graph::PlannedNode* find_type(const graph::Plan& plan, const std::string& type) {
-  for (const graph::PlannedNode& node : plan.nodes)
-    if (node.spec->name == type) return &node;
-  return nullptr;
-}
-
 /// The node of that type, without which there is nothing to explain.
 const graph::PlannedNode& node_of_type(const graph::Plan& plan, const std::string& type) {
-  if (const graph::PlannedNode* node = find_type(plan, type)) return *node;
+  if (const graph::PlannedNode* node = graph::find_type(plan, type)) return *node;
   throw std::invalid_argument("the pipeline '" + plan.name + "' has no " + type +
                               ": expected one that votes, as recognize");
 }
@@ -42,26 +35,6 @@ const std::string& input_stream(const graph::Plan& plan, const graph::PlannedNod
   throw std::invalid_argument(node.name + ": has no input " + port);
 }
 
-ModelFiles find_models(const RunInputs& inputs) {
-  std::vector<std::string> files = inputs.models;
-  if (files.empty() && !inputs.dataset.empty())
-    files = list_dataset_models(inputs.dataset, inputs.split);
-  if (files.empty())
-    throw std::invalid_argument("the run names no models; say --models FILE... or --dataset DIR");
-  return list_models(files);
-}
-
-std::shared_ptr<const ModelLibrary> find_library(const Run& run) {
-  if (run.inputs.library.empty())
-    return cached_library(run.configuration, find_models(run.inputs),
-                          run.inputs.cache.empty() ? default_cache() : fs::path(run.inputs.cache),
-                          BadModels::kLeaveOut);
-  std::string why_not;
-  auto library = library::load_library(run.inputs.library, library_key(run.configuration), why_not);
-  if (!library) throw std::invalid_argument(run.inputs.library + ": " + why_not);
-  return std::make_shared<const ModelLibrary>(std::move(*library));
-}
-
 template <class T>
 T tapped(const ablation::Replay& replay, const graph::Plan& plan, const graph::PlannedNode& node,
          const std::string& port) {
@@ -75,33 +48,20 @@ const poses::SegmentParams& Run::segmentation() const {
       segmentation_of(configuration.scenes).params.get());
 }
 
-Run open_run(const fs::path& out, const std::vector<std::string>& models,
-             const std::string& dataset) {
-  Run run;
-  run.out = out;
-  run.frames = read_run_frames(out);
-  run.inputs = read_inputs(out);
-  if (!models.empty()) {
-    run.inputs.library.clear();
-    run.inputs.models = models;
-  }
-  if (run.inputs.dataset.empty()) run.inputs.dataset = dataset;
-  run.configuration = load_configuration((out / "effective.yaml").string(), {});
+Run open_run(const fs::path& out, const std::vector<std::string>& models) {
+  RunInputs inputs(out);
+  inputs.use_models(models);
+  Configuration configuration = inputs.configuration();
+  Run run{out, std::move(inputs), read_run_frames(out), std::move(configuration), {}, {}};
   segmentation_of(run.configuration.scenes);
   node_of_type(run.configuration.scenes, "match_features");
-  run.library = as_arguments([&] { return find_library(run); });
+  run.library = run.inputs.library(run.configuration);
   run.constants = constants_of(run.configuration, run.library);
   return run;
 }
 
 SceneFile scene_file(const Run& run, const FrameOfRun& frame) {
-  if (!run.inputs.dataset.empty())
-    for (const SceneEntry& entry : list_dataset_scenes(run.inputs.dataset, run.inputs.split))
-      if (entry.number == frame.number && entry.file.path.filename() == frame.file.filename())
-        return entry.file;
-  SceneFile file{frame.file, frame.scene_id, frame.im_id, std::nullopt};
-  if (!fs::exists(file.path) && file.path.is_relative())
-    file.path = fs::path(run.inputs.folder) / file.path;
+  SceneFile file = run.inputs.scene(frame.number, frame.file, frame.scene_id, frame.im_id);
   if (!fs::exists(file.path))
     throw std::invalid_argument(file.path.string() + ": the scan of frame '" + frame.name +
                                 "' is not there any more");
@@ -110,7 +70,7 @@ SceneFile scene_file(const Run& run, const FrameOfRun& frame) {
 
 graph::FrameContext Taps::listen() {
   graph::FrameContext context;
-  context.seed = run.inputs.seed;
+  context.seed = run.inputs.manifest().seed;
   context.file = file.path;
   context.on_figure = [this](const std::string& what, std::vector<double> values) {
     const std::scoped_lock lock(telling_);

@@ -150,6 +150,10 @@ TEST_CASE("where nothing more can be found, nothing is sought", "[look_again]") 
   CHECK(look(inputs.scan, some, {{"search_every", "1"}}).now.is_searched);
 }
 
+TEST_CASE("where nothing was found, each frame is searched", "[look_again]") {
+  CHECK(look(scan_of({kLeft}), Sightings()).now.is_searched);
+}
+
 TEST_CASE("an instance keeps its place to itself", "[look_again]") {
   Sightings before = search(inputs_of({kLeft}, {1}), {}).sightings;
   before.items.push_back(before.items[0]);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What files and records hold, as a number that tells it from anything else: XXH3-128, written as 32
+// hexadecimal digits. It guards against accidents, not against forgers.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/data/files.hpp"
+
+namespace posevote::formats {
+
+std::string checksum(std::string_view bytes);
+
+/// Over the files' lengths and bytes, in this order, and the text. Throws std::runtime_error naming a
+/// file that cannot be read.
+std::string hash_files(const std::vector<std::filesystem::path>& files, const std::string& text);
+
+/// Of a scan's file, and of the one beside it that says where the sensor stood. "" where the scan is
+/// in memory. Throws std::runtime_error naming a file that cannot be read.
+std::string hash_scan(const SceneFile& scan);
+
+}  // namespace posevote::formats
