@@ -38,7 +38,7 @@ struct SmallImages {
   }
 };
 
-/// A recording of so many frames, every 20th of them broken in one of five ways. Returns those.
+/// A recording of so many frames, another scene after 50, every 20th of them broken in one of five ways. Returns those.
 std::set<std::string> record(const SmallImages& images, const fs::path& recording, int frames) {
   fs::create_directories(recording / "depth");
   const auto cameras = read_json(images.scene / "scene_camera.json");
@@ -50,7 +50,7 @@ std::set<std::string> record(const SmallImages& images, const fs::path& recordin
                         {"cy", k[5]},
                         {"depth_scale", cameras["0"]["depth_scale"]}};
   const auto image = [&](int i) {
-    return images.scene / "depth" / ("00000" + std::to_string(i % 3) + ".png");
+    return images.scene / "depth" / ("00000" + std::to_string(i / 50 % 3) + ".png");
   };
   const std::string whole = read_text(image(0));
   std::string changed = whole;
