@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <stdexcept>
+#include <thread>
 
 #include "graph/runner.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
@@ -17,6 +18,9 @@
 #include "tools/manifest/run_inputs.hpp"
 #include "tools/progress/frame_report.hpp"
 #include "tools/run_lock.hpp"
+#include "tools/stream/followed_scans.hpp"
+#include "tools/stream/memory.hpp"
+#include "tools/stream/run_stream.hpp"
 #include "tools/text.hpp"
 
 namespace posevote {
@@ -39,7 +43,8 @@ Configuration read_configuration(const RunCommand& command) {
                             command.pipeline, options);
 }
 
-std::vector<SceneEntry> find_scenes(const RunCommand& command) {
+std::vector<SceneEntry> find_scenes(const RunCommand& command, const StreamOptions& options) {
+  if (options.follow) return {};
   if (command.scenes.empty() == command.dataset.empty())
     throw std::invalid_argument("expected --scenes FILE... or --dataset DIR, one of them");
   return command.dataset.empty() ? list_scenes(command.scenes)
@@ -75,25 +80,46 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
 }
 
 graph::RunSummary run_scenes(const RunCommand& command, const Configuration& configuration,
-                             const graph::Constants& constants,
-                             const std::vector<SceneEntry>& scenes,
-                             const std::atomic<bool>& interrupted, std::size_t& found) {
+                             const graph::Constants& constants, stream::Scans& scans,
+                             std::size_t tokens, const std::atomic<bool>& interrupted,
+                             std::size_t& found) {
   graph::Activity activity;
-  FrameReport report(command, configuration.scenes, scenes.size(), activity, interrupted);
-  const auto make_frame = [&](std::size_t i) {
-    const SceneEntry& scene = scenes[i];
+  FrameReport report(command, configuration.scenes, scans.count(), activity, interrupted);
+  const auto next_frame = [&]() -> std::optional<graph::Frame<SceneFile>> {
+    const std::optional<SceneEntry> scene = scans.next();
+    if (!scene) return std::nullopt;
     return graph::Frame<SceneFile>{
-        {scene.number, scene.name, command.out, command.seed, scene.file.path, {}}, {scene.file}};
+        {scene->number, scene->name, command.out, command.seed, scene->file.path, {}},
+        {scene->file}};
   };
   const graph::RunSummary summary =
-      graph::run(configuration.scenes, constants, graph::counted(scenes.size(), make_frame),
-                 {command.tokens, command.on_error == "stop", &interrupted, &activity},
-                 std::function([&report](const graph::FrameResult<Detections>& result) {
+      graph::run(configuration.scenes, constants, next_frame,
+                 {tokens, command.on_error == "stop", &interrupted, &activity},
+                 std::function([&](const graph::FrameResult<Detections>& result) {
                    report.add(result);
+                   scans.answered(result.context.number);
                  }));
   report.finish();
   found = report.found();
   return summary;
+}
+
+/// Frames in flight.
+std::size_t tokens_of(const RunCommand& command, const StreamOptions& options,
+                      const std::vector<SceneEntry>& scenes) {
+  const std::size_t threads =
+      command.threads > 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
+  return stream::tokens_within(stream::memory_limit(options.memory),
+                               command.tokens > 0 ? command.tokens : 2 * threads, scenes);
+}
+
+/// Null where the scans are listed.
+std::unique_ptr<stream::Scans> follow_scans(const RunCommand& command, const StreamOptions& options,
+                                            const std::atomic<bool>& interrupted) {
+  if (!options.follow) return nullptr;
+  if (command.scenes.size() != 1)
+    throw std::runtime_error("--follow expects --scenes FOLDER, one of them");
+  return std::make_unique<stream::FollowedScans>(command.scenes[0], options.real_time, interrupted);
 }
 
 /// How many are left, and the command that goes on: an experiment does so by itself.
@@ -113,15 +139,22 @@ int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, b
 }  // namespace
 
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
+  return run_command(command, {}, interrupted);
+}
+
+int run_command(const RunCommand& command, const StreamOptions& options,
+                const std::atomic<bool>& interrupted) {
   const JsonAnswer answer(command.json);
   const Configuration configuration = read_configuration(command);
   if (configuration.scenes.nodes.empty())
     throw std::invalid_argument(command.config +
                                 ": its pipeline has no `models`; expected one that "
                                 "finds them in scans, as pipelines/recognize.yaml");
-  const std::vector<SceneEntry> all = find_scenes(command);
+  const std::vector<SceneEntry> all = find_scenes(command, options);
   std::vector<SceneEntry> scenes = take_shard(all, command.shard);
-  if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
+  auto scans = as_arguments([&] { return follow_scans(command, options, interrupted); });
+  if (scenes.empty() && !scans)
+    throw std::invalid_argument("no scan is left to read in this shard");
   const ModelFiles models = find_models(command);
   const auto library = as_arguments([&] { return find_library(command, configuration, models); });
   tell_left_out(*library);
@@ -138,16 +171,20 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
               describe_run(command, configuration, models, *library, all), scenes);
   });
   std::size_t found = 0;
+  const std::size_t tokens = tokens_of(command, options, scenes);
+  if (!scans) scans = std::make_unique<stream::ListedScans>(std::move(scenes));
   const graph::RunSummary summary =
-      run_scenes(command, configuration, constants, scenes, interrupted, found);
+      run_scenes(command, configuration, constants, *scans, tokens, interrupted, found);
   finish_run(command, configuration);
+  if (!command.quiet && !scans->text().empty()) std::cout << scans->text() << "\n";
   std::cout << summary.done << " frames answered, " << summary.failed << " failed; " << found
             << " found; results in " << printable(command.out) << "\n"
             << std::flush;
-  if (interrupted) tell_interrupted(command, scenes.size(), summary);
+  if (interrupted && !options.follow) tell_interrupted(command, scans->count(), summary);
   answer.give({{"answered", summary.done},
                {"failed", summary.failed},
                {"found", found},
+               {"stream", scans->json()},
                {"out", command.out}});
   return exit_status(summary, *library, interrupted);
 }

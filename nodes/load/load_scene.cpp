@@ -47,6 +47,7 @@ struct Params {
   double depth_scale = 1;
   double min_depth = 0;
   double max_depth = 0;
+  int max_points = 50'000'000;
 };
 
 std::string check(const Params& params) {
@@ -175,12 +176,17 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
   Camera camera = file.camera.value_or(given);
   if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
-  const DepthRange range{params.min_depth, params.max_depth};
+  const DepthRange range{params.min_depth, params.max_depth,
+                         static_cast<std::size_t>(params.max_points)};
   return file.depth ? points_of(*file.depth, camera, range) : read_depth(file.path, camera, range);
 }
 
 Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
   Scan scan = load_file(file, context, params);
+  if (scan.points.rows() > params.max_points)
+    throw std::runtime_error("has " + std::to_string(scan.points.rows()) +
+                             " points, more than the " + std::to_string(params.max_points) +
+                             " that memory is granted for (load_scene.max_points, --memory)");
   const Eigen::Vector3d place = scan.view.origin.cast<double>();
   context.tell("sensor_pose", {place.x(), place.y(), place.z()});
   return scan;
@@ -208,6 +214,9 @@ const auto registered =
                graph::at_least(0))
         .param("max_depth", &Params::max_depth, "m",
                "Farther pixels of a depth image are left out; 0: no limit.", graph::at_least(0))
+        .param("max_points", &Params::max_points, "",
+               "A scan of more points or pixels fails; one takes up to 64 bytes of memory.",
+               graph::at_least(1))
         .check(check);
 
 }  // namespace

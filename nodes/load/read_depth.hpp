@@ -12,6 +12,7 @@ namespace posevote::load {
 struct DepthRange {
   double near = 0;
   double far = 0;
+  std::size_t most_pixels = 0;  ///< of a file; 0: no limit
 };
 
 /// The points that a depth image measured, row by row: x right, y down, z forward, the camera at the

@@ -21,6 +21,12 @@ const graph::PlannedNode& node_of_type(const graph::Plan& plan, const std::strin
                               ": expected one that votes, as recognize");
 }
 
+/// That of a stream, too: a frame is explained as if it were its first.
+const graph::PlannedNode& segmentation_of(const graph::Plan& plan) {
+  const graph::PlannedNode* of_stream = find_type(plan, "segment_new_objects");
+  return of_stream ? *of_stream : node_of_type(plan, "segment_objects");
+}
+
 /// The stream at a port of a node.
 const std::string& input_stream(const graph::Plan& plan, const graph::PlannedNode& node,
                                 const std::string& port) {
@@ -39,7 +45,7 @@ T tapped(const ablation::Replay& replay, const graph::Plan& plan, const graph::P
 
 const poses::SegmentParams& Run::segmentation() const {
   return *static_cast<const poses::SegmentParams*>(
-      node_of_type(configuration.scenes, "segment_objects").params.get());
+      segmentation_of(configuration.scenes).params.get());
 }
 
 Run open_run(const fs::path& out, const std::vector<std::string>& models) {
@@ -47,7 +53,7 @@ Run open_run(const fs::path& out, const std::vector<std::string>& models) {
   inputs.use_models(models);
   Configuration configuration = inputs.configuration();
   Run run{out, std::move(inputs), read_run_frames(out), std::move(configuration), {}, {}};
-  node_of_type(run.configuration.scenes, "segment_objects");
+  segmentation_of(run.configuration.scenes);
   node_of_type(run.configuration.scenes, "match_features");
   run.library = run.inputs.library(run.configuration);
   run.constants = constants_of(run.configuration, run.library);
@@ -83,7 +89,7 @@ Taps::Taps(const Run& of, const FrameOfRun& frame) : run(of), file(scene_file(of
   replay_ = std::make_unique<ablation::Replay>(
       plan, run.constants, std::vector<graph::Value>{std::make_shared<const SceneFile>(file)},
       listen());
-  const graph::PlannedNode& segment = node_of_type(plan, "segment_objects");
+  const graph::PlannedNode& segment = segmentation_of(plan);
   cloud = tapped<std::shared_ptr<const Cloud>>(*replay_, plan, segment, "scene_cloud");
   features = tapped<std::shared_ptr<const FeatureSet>>(*replay_, plan, segment, "scene_features");
   scale = tapped<Scale>(*replay_, plan, segment, "scale");
