@@ -16,6 +16,7 @@
 #include "nodes/formats/units.hpp"
 #include "nodes/library/content_hash.hpp"
 #include "nodes/library/library_file.hpp"
+#include "pipelines/training_lock.hpp"
 
 namespace posevote {
 namespace {
@@ -104,10 +105,25 @@ void tidy_cache(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (name.find(kEnding) != kKeyLength) continue;
     const bool is_whole = name.ends_with(kEnding);
-    if (!is_whole && !name.ends_with(".tmp")) continue;
+    if (!is_whole && !name.ends_with(".tmp") && !name.ends_with(".lock")) continue;
     const auto written = fs::last_write_time(entry.path(), none);
     if (!none && now - written > (is_whole ? kLibraries : kHalves)) fs::remove(entry.path(), none);
   }
+}
+
+/// What the cache holds under that key; null where that is nothing, or nothing that can be used.
+std::shared_ptr<const ModelLibrary> known_library(const Configuration& configuration,
+                                                  const ModelFiles& models, const fs::path& file,
+                                                  const std::string& key, BadModels bad) {
+  if (!fs::exists(file)) return nullptr;
+  std::string why_not;
+  auto library = library::load_library(file, key, why_not);
+  if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
+  if (!library || (bad == BadModels::kStop && !library->left_out.empty())) return nullptr;
+  std::error_code read_only;
+  fs::last_write_time(file, fs::file_time_type::clock::now(), read_only);  // for tidy_cache
+  tell_odd_sizes(configuration, *library, models);
+  return std::make_shared<const ModelLibrary>(std::move(*library));
 }
 
 std::string all_failed(const std::vector<LeftOutModel>& left_out) {
@@ -174,17 +190,11 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
   }
   const std::string key = library::hash_files(files, text);
   const fs::path file = folder / (key + kEnding);
-  if (fs::exists(file)) {
-    std::string why_not;
-    auto library = library::load_library(file, key, why_not);
-    if (library && (bad == BadModels::kLeaveOut || library->left_out.empty())) {
-      std::error_code read_only;
-      fs::last_write_time(file, fs::file_time_type::clock::now(), read_only);  // for tidy_cache
-      tell_odd_sizes(configuration, *library, models);
-      return std::make_shared<const ModelLibrary>(std::move(*library));
-    }
-    if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
-  }
+  const auto known = [&] { return known_library(configuration, models, file, key, bad); };
+  if (auto library = known()) return library;
+  const TrainingLock lock(file);
+  if (lock.waited())
+    if (auto library = known()) return library;
   auto library = train(configuration, models, bad, activity);
   try {
     fs::create_directories(folder);
