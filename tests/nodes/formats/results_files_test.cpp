@@ -160,14 +160,13 @@ TEST_CASE("resuming refuses scans that have changed before it touches a file", "
     CHECK_FALSE(fs::exists(run.out / "results.csv"));
   };
   const formats::Batch sound = run.batch;
-  SceneFile& scan = run.batch.scans[1];
-  scan.path = run.folder.write("other.ply", "1");
-  refuses("scan1.ply was \"scan1.ply\", now it is \"other.ply\"");
+  run.batch.scans[1].path = run.folder.write("other.ply", "1");
+  refuses("was \"scan1.ply\", now it is \"other.ply\"");
   run.batch = sound;
-  scan.scene_id = 2;
+  run.batch.scans[1].scene_id = 2;
   refuses("scan1.ply was scene_id 0, im_id 1, now it is scene_id 2, im_id 1");
   run.batch = sound;
-  scan.camera->fx = 501;
+  run.batch.scans[1].camera->fx = 501;
   refuses("the camera of ");
   run.batch = sound;
   run.batch.scans.erase(1);
