@@ -8,13 +8,18 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 
+#include "graph/admission.hpp"
+#include "graph/awaited.hpp"
 #include "graph/frame_work.hpp"
+#include "graph/handover.hpp"
 
 namespace posevote::graph {
 namespace {
 
 namespace flow = oneapi::tbb::flow;
+using detail::Admission;
 using detail::FrameState;
 using detail::FrameWork;
 using detail::UntypedFrame;
@@ -26,7 +31,8 @@ using Message = std::shared_ptr<FrameState>;
 using Stage = flow::multifunction_node<Message, std::tuple<Message>>;
 using Outlet = Stage::output_ports_type;
 
-/// A node of the plan. `entry` waits for all edges that lead here. A node that sees the frames in
+/// A node of the plan. `entry` waits for all edges that lead here, and for what the frame before
+/// hands on. A node that sees the frames in
 /// order has them sorted and works on one at a time, in `serial`; any other works in `entry`.
 struct Station {
   std::unique_ptr<Stage> entry;
@@ -46,14 +52,19 @@ class Runner {
         on_result_(on_result),
         work_(plan, constants, options),
         expected_(plan.nodes.size() + 1, 0),
-        source_(graph_, [this](flow_control& control) { return next(control); }),
-        limiter_(graph_, tokens()),
+        admission_(tokens()),
+        handovers_(plan),
+        entrance_(graph_),
         gate_(graph_, flow::unlimited,
               [this](const Message& message, Outlet& out) {
                 if (all_arrived(message, plan_.nodes.size())) std::get<0>(out).try_put(message);
               }),
         order_(graph_, [](const Message& message) { return message->sequence; }),
-        sink_(graph_, flow::serial, [this](const Message& message) { return leave(message); }) {
+        sink_(graph_, flow::serial, [this](const Message& message) {
+          leave(message);
+          admission_.leave();
+          return flow::continue_msg();
+        }) {
     for (std::size_t i = 0; i < plan.nodes.size(); ++i) stations_.push_back(make_station(i));
     make_edges();
   }
@@ -63,8 +74,14 @@ class Runner {
   Runner& operator=(const Runner&) = delete;
 
   RunSummary run() {
-    source_.activate();
+    graph_.reserve_wait();
+    std::thread source([this] {
+      while (feed()) {
+      }
+      graph_.release_wait();
+    });
     graph_.wait_for_all();
+    source.join();
     if (source_error_) std::rethrow_exception(source_error_);
     if (error_) std::rethrow_exception(error_);
     if (entered_ != left_)
@@ -75,8 +92,6 @@ class Runner {
   }
 
  private:
-  using flow_control = oneapi::tbb::flow_control;
-
   std::size_t tokens() const {
     if (options_.tokens > 0) return options_.tokens;
     return 2 * static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
@@ -91,22 +106,31 @@ class Runner {
 
   bool halted() const { return halt_ || (options_.interrupted && options_.interrupted->load()); }
 
-  Message next(flow_control& control) {
+  /// Waits until a frame may enter, and has one enter. False if there is none.
+  bool feed() {
+    admission_.await_token();
+    const Message message = next();
+    if (!message) return false;
+    admission_.enter();
+    entrance_.try_put(message);
+    return true;
+  }
+
+  Message next() {
     try {
       std::optional<UntypedFrame> frame;
       if (!halted()) {
         frame = next_frame_();
         source_ended_ = !frame;
       }
-      if (frame) {
-        auto message = std::make_shared<FrameState>(entered_, std::move(*frame), plan_);
-        ++entered_;
-        return message;
-      }
+      if (!frame) return nullptr;
+      auto message = std::make_shared<FrameState>(entered_, std::move(*frame), plan_);
+      ++entered_;
+      handovers_.enter(message, go_on_);
+      return message;
     } catch (...) {
       source_error_ = std::current_exception();
     }
-    control.stop();
     return nullptr;
   }
 
@@ -114,6 +138,7 @@ class Runner {
     if (plan_.nodes[i].constant) return {};
     const auto work = [this, i](const Message& message, Outlet& out) {
       visit(i, *message);
+      handovers_.hand_on(i, message, go_on_);
       std::get<0>(out).try_put(message);
     };
     const bool in_order = detail::in_order(plan_.nodes[i]);
@@ -137,7 +162,6 @@ class Runner {
 
   /// What no other node waits for leads to the nodes that run last; they, or it, to the gate.
   void make_edges() {
-    flow::make_edge(source_, limiter_);
     std::vector<bool> leads_on(plan_.nodes.size(), false);
     for (std::size_t i = 0; i < stations_.size(); ++i)
       if (stations_[i].entry && !plan_.nodes[i].spec->last) lead_to(i, producers_of(i), leads_on);
@@ -153,34 +177,37 @@ class Runner {
     lead_to_gate(leads_on);
     flow::make_edge(flow::output_port<0>(gate_), order_);
     flow::make_edge(order_, sink_);
-    flow::make_edge(sink_, limiter_.decrementer());
   }
 
   /// The nodes whose output node i reads, -1 for what comes with the frame.
   std::vector<int> producers_of(std::size_t i) const {
     std::vector<int> producers;
-    for (const int input : plan_.nodes[i].inputs) {
+    for (const int input : awaited(plan_.nodes[i])) {
       const Stream& stream = plan_.streams[std::size_t(input)];
       if (!stream.constant) producers.push_back(stream.producer);
     }
     return producers;
   }
 
-  /// One edge from each distinct producer; from the limiter for what comes with the frame, and for
+  /// One edge from each distinct producer; from the entrance for what comes with the frame, and for
   /// a node that waits for nothing.
   void lead_to(std::size_t i, std::vector<int> producers, std::vector<bool>& leads_on) {
     if (producers.empty()) producers.push_back(-1);
     std::sort(producers.begin(), producers.end());
     producers.erase(std::unique(producers.begin(), producers.end()), producers.end());
-    expected_[i] = static_cast<int>(producers.size());
+    expected_[i] = static_cast<int>(producers.size()) + count_previous(plan_.nodes[i]);
     for (const int producer : producers) {
       if (producer < 0) {
-        flow::make_edge(limiter_, *stations_[i].entry);
+        flow::make_edge(entrance_, *stations_[i].entry);
       } else {
         flow::make_edge(stations_[std::size_t(producer)].exit(), *stations_[i].entry);
         leads_on[std::size_t(producer)] = true;
       }
     }
+  }
+
+  static int count_previous(const PlannedNode& node) {
+    return static_cast<int>(node.inputs.size() - awaited(node).size());
   }
 
   void lead_to_gate(const std::vector<bool>& leads_on) {
@@ -190,7 +217,7 @@ class Runner {
       ++expected_.back();
     }
     if (expected_.back() > 0) return;
-    flow::make_edge(limiter_, gate_);  // nothing but constants: frames pass straight through
+    flow::make_edge(entrance_, gate_);  // nothing but constants: frames pass straight through
     expected_.back() = 1;
   }
 
@@ -207,9 +234,9 @@ class Runner {
     }
   }
 
-  flow::continue_msg leave(const Message& message) {
+  void leave(const Message& message) {
     ++left_;
-    if (summary_.stopped || broken_) return {};
+    if (summary_.stopped || broken_) return;
     UntypedResult result = work_.result(*message);
     const bool failed = result.failure.has_value();
     ++(failed ? summary_.failed : summary_.done);
@@ -219,8 +246,11 @@ class Runner {
       end_by_exception();
     }
     if (failed && options_.stop_on_failure) summary_.stopped = halt_ = true;
-    return {};
   }
+
+  /// What a node waited for is there.
+  const std::function<void(std::size_t, const Message&)> go_on_ =
+      [this](std::size_t node, const Message& message) { stations_[node].entry->try_put(message); };
 
   const Plan& plan_;
   const NextFrame& next_frame_;
@@ -240,8 +270,9 @@ class Runner {
   RunSummary summary_;
 
   flow::graph graph_;
-  flow::input_node<Message> source_;
-  flow::limiter_node<Message> limiter_;
+  Admission admission_;
+  detail::Handovers<Message> handovers_;
+  flow::broadcast_node<Message> entrance_;
   std::vector<Station> stations_;
   Stage gate_;
   flow::sequencer_node<Message> order_;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/awaited.hpp"
 #include "graph/node_call.hpp"
 
 namespace posevote::graph {
@@ -31,7 +32,7 @@ std::vector<std::size_t> nodes_before(const Plan& plan, std::size_t i) {
     for (std::size_t other = 0; other < before.size(); ++other)
       before[other] = !plan.nodes[other].spec->last;
   const auto mark_producers = [&](std::size_t node) {
-    for (const int input : plan.nodes[node].inputs)
+    for (const int input : awaited(plan.nodes[node]))
       if (const int producer = plan.streams[std::size_t(input)].producer; producer >= 0)
         before[std::size_t(producer)] = true;
   };
@@ -50,6 +51,7 @@ FrameState::FrameState(std::size_t order, UntypedFrame entering, const Plan& pla
     : sequence(order),
       frame(std::move(entering)),
       values(plan.streams.size()),
+      previous(plan.streams.size()),
       readers(plan.streams.size()),
       arrivals(plan.nodes.size() + 1),
       failures(plan.nodes.size()),
@@ -83,7 +85,7 @@ FrameWork::FrameWork(const Plan& plan, const Constants& constants, const RunOpti
 
 void FrameWork::visit(std::size_t i, FrameState& state) {
   work(i, state);
-  for (const int input : plan_.nodes[i].inputs) {
+  for (const int input : awaited(plan_.nodes[i])) {
     const std::size_t stream = std::size_t(input);
     if (state.readers[stream].fetch_sub(1) == 1) state.values[stream].reset();
   }
@@ -96,8 +98,12 @@ void FrameWork::work(std::size_t i, FrameState& state) {
     return tell(i, *failure, state);
   }
   std::vector<Value> inputs;
-  for (const int input : plan_.nodes[i].inputs) {
-    const std::size_t stream = std::size_t(input);
+  for (std::size_t port = 0; port < plan_.nodes[i].inputs.size(); ++port) {
+    const std::size_t stream = std::size_t(plan_.nodes[i].inputs[port]);
+    if (is_previous(plan_.nodes[i], port)) {
+      inputs.push_back(state.previous[stream]);
+      continue;
+    }
     inputs.push_back(plan_.streams[stream].constant ? constants_[stream] : state.values[stream]);
     if (!inputs.back()) return;  // a node before this one has failed
   }

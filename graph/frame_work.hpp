@@ -24,7 +24,8 @@ struct FrameState {
 
   std::size_t sequence;
   UntypedFrame frame;
-  std::vector<Value> values;  ///< per stream
+  std::vector<Value> values;    ///< per stream
+  std::vector<Value> previous;  ///< per stream that is handed on: of the frame before, or null
   std::vector<std::atomic<int>> readers;
   std::vector<std::atomic<int>> arrivals;  ///< per node, the last one for the sink
   std::vector<std::optional<Failure>> failures;

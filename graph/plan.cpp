@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "graph/awaited.hpp"
+
 namespace posevote::graph {
 
 std::map<std::string, std::map<std::string, std::string>> effective_parameters(const Plan& plan) {
@@ -52,6 +54,11 @@ std::string edges(const Plan& plan) {
       names += (names.empty() ? "" : "\\n") + stream.name;
       types += (types.empty() ? "" : "\\n") + stream.name + ": " + stream.type.name;
     }
+    const auto number = static_cast<std::size_t>(&stream - plan.streams.data());
+    for (const std::size_t follower : followers_of(plan, number))
+      dot += "  " + from + " -> " + id_of(plan, static_cast<int>(follower)) +
+             " [label=" + quoted(stream.name + "\\nof the frame before") +
+             ", style=dashed, constraint=false];\n";
     if (stream.producer < 0 || &stream == &plan.streams[std::size_t(plan.result)])
       dot += "  " + outer(stream) + " [shape=ellipse];\n";
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "graph/awaited.hpp"
 #include "graph/planner.hpp"
 
 namespace posevote::graph {
@@ -38,7 +39,8 @@ void detail::order_nodes(Plan& plan, std::vector<Problem>& problems) {
   std::vector<int> order;
   std::vector<bool> placed(plan.nodes.size(), false);
   const auto ready = [&](std::size_t i) {
-    return std::all_of(plan.nodes[i].inputs.begin(), plan.nodes[i].inputs.end(), [&](int s) {
+    const std::vector<int> inputs = awaited(plan.nodes[i]);
+    return std::all_of(inputs.begin(), inputs.end(), [&](int s) {
       const int producer = s < 0 ? -1 : plan.streams[std::size_t(s)].producer;
       return producer < 0 || placed[std::size_t(producer)];
     });

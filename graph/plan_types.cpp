@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "graph/awaited.hpp"
 #include "graph/planner.hpp"
 
 namespace posevote::graph {
@@ -27,6 +28,9 @@ class Types {
                "once, but would run for each object");
       for (std::size_t i = 0; i < node.outputs.size(); ++i) set_output(node, i);
     }
+    for (const PlannedNode& node : plan_.nodes)
+      for (std::size_t i = 0; i < node.inputs.size(); ++i)
+        if (is_previous(node, i) && node.inputs[i] >= 0) check_previous(node, i);
     check_result();
     check_readers();
   }
@@ -51,6 +55,7 @@ class Types {
 
   void check_input(PlannedNode& node, std::size_t i) {
     if (node.inputs[i] < 0 || !node.spec) return void(node.constant = false);  // reported
+    if (is_previous(node, i)) return void(node.constant = false);  // may be produced behind it
     Stream& stream = plan_.streams[std::size_t(node.inputs[i])];
     const Port& port = node.spec->inputs[i];
     node.constant = node.constant && stream.constant;
@@ -66,6 +71,22 @@ class Types {
     report(node.where, node.name + "." + port.name,
            "expected " + port.type.name + ", but " + producer + " produces '" + stream.name +
                "' as " + stream.type.name);
+  }
+
+  /// Of what a node reads of the frame before.
+  void check_previous(const PlannedNode& node, std::size_t i) {
+    const Stream& stream = plan_.streams[std::size_t(node.inputs[i])];
+    const Port& port = node.spec->inputs[i];
+    const std::string subject = node.name + "." + port.name;
+    if (stream.producer < 0 || stream.constant)
+      return report(node.where, subject,
+                    "reads '" + stream.name +
+                        "' of the frame before, expected what a node makes of each frame");
+    if (!stream.type.name.empty() && !is_previous_of(port.type, stream.type))
+      report(node.where, subject,
+             "expected " + port.type.name + ", but node " +
+                 plan_.nodes[std::size_t(stream.producer)].name + " produces '" + stream.name +
+                 "' as " + stream.type.name);
   }
 
   /// Where it is named an input, since it may be another node that should read it.
@@ -87,8 +108,9 @@ class Types {
   }
 
   void check_readers() {
-    for (const Stream& stream : plan_.streams) {
-      if (!stream.consumers.empty() || stream.constant) continue;
+    for (std::size_t i = 0; i < plan_.streams.size(); ++i) {
+      const Stream& stream = plan_.streams[i];
+      if (!stream.consumers.empty() || stream.constant || !followers_of(plan_, i).empty()) continue;
       const Location& where = stream.producer >= 0 ? plan_.nodes[std::size_t(stream.producer)].where
                                                    : description_.where;
       report(where, stream.name, "nobody reads this stream, expected a reader or no such output");

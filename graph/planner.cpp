@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "graph/previous.hpp"
+
 namespace posevote::graph {
 namespace {
 
@@ -96,13 +98,14 @@ class Wiring {
     const NodeDescription& description = description_.nodes[std::size_t(index)];
     const std::vector<Wire>& wires = description.inputs;
     if (!node.spec) {  // already reported; its inputs still count as readers
-      for (const Wire& wire : wires) read_stream(wire, index);
+      for (const Wire& wire : wires) read_stream(wire, index, false);
       return;
     }
     node.inputs.assign(node.spec->inputs.size(), -1);
     for (std::size_t i = 0; i < wires.size(); ++i) {
       const int port = find_port(node, "input", node.spec->inputs, wires[i], i);
-      const int stream = read_stream(wires[i], index);
+      const int stream = read_stream(
+          wires[i], index, port >= 0 && is_previous(node.spec->inputs[std::size_t(port)].type));
       if (port >= 0) node.inputs[std::size_t(port)] = stream;
     }
     check_ports(node, description);
@@ -130,10 +133,10 @@ class Wiring {
     return -1;
   }
 
-  int read_stream(const Wire& wire, int reader) {
+  int read_stream(const Wire& wire, int reader, bool with_next_frame) {
     const auto found = stream_of_.find(wire.stream);
     if (found != stream_of_.end()) {
-      plan_.streams[std::size_t(found->second)].consumers.push_back(reader);
+      if (!with_next_frame) plan_.streams[std::size_t(found->second)].consumers.push_back(reader);
       return found->second;
     }
     std::vector<std::string> known;
@@ -158,7 +161,8 @@ class Wiring {
   }
 
   void find_result() {
-    if (!description_.result.stream.empty()) plan_.result = read_stream(description_.result, -1);
+    if (!description_.result.stream.empty())
+      plan_.result = read_stream(description_.result, -1, false);
   }
 
   const PipelineDescription& description_;

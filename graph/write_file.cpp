@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph/write_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -34,6 +37,15 @@ int put(const fs::path& file, std::string_view bytes) {
   return error;
 }
 
+/// 0, or the errno of what failed.
+int sync(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  const int error = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+  close(descriptor);
+  return error;
+}
+
 [[noreturn]] void fail(const fs::path& file, const std::string& cause) {
   throw std::runtime_error(file.string() + ": cannot be written: " + cause);
 }
@@ -44,7 +56,9 @@ std::string cause_of(int error) {
   return error > 0 ? std::strerror(error) : "the system gives no cause; is the disk full?";
 }
 
-void write_file(const fs::path& link, std::string_view bytes) {
+namespace {
+
+void write(const fs::path& link, std::string_view bytes, bool durably) {
   std::error_code problem;
   const bool is_link = fs::is_symlink(fs::symlink_status(link, problem));
   const fs::path file = is_link ? fs::weakly_canonical(link, problem) : link;
@@ -56,13 +70,27 @@ void write_file(const fs::path& link, std::string_view bytes) {
     return;
   }
   const fs::path temporary = unique_neighbour(file);
-  const int error = put(temporary, bytes);
+  int error = put(temporary, bytes);
+  if (error == 0 && durably) error = sync(temporary);
   problem.clear();
   if (error == 0) fs::rename(temporary, file, problem);
-  if (error == 0 && !problem) return;
+  if (error == 0 && !problem) {
+    if (durably) sync(file.has_parent_path() ? file.parent_path() : ".");
+    return;
+  }
   std::error_code ignored;
   fs::remove(temporary, ignored);
   fail(link, error != 0 ? cause_of(error) : problem.message());
+}
+
+}  // namespace
+
+void write_file(const fs::path& file, std::string_view bytes) { write(file, bytes, false); }
+
+void write_durably(const fs::path& file, std::string_view bytes) { write(file, bytes, true); }
+
+void sync_file(const fs::path& file) {
+  if (const int error = sync(file)) fail(file, cause_of(error));
 }
 
 }  // namespace posevote::graph

@@ -15,4 +15,12 @@ std::string cause_of(int error);
 /// std::runtime_error "FILE: cannot be written: cause".
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// The same, and on the disk when it returns: what is under the name outlasts a loss of power.
+void write_durably(const std::filesystem::path& file, std::string_view bytes);
+
+/// Puts on the disk what has been written to a file, or which names a folder has. Throws
+/// std::runtime_error "FILE: cannot be written: cause"; a file system that knows no such thing is
+/// none.
+void sync_file(const std::filesystem::path& file);
+
 }  // namespace posevote::graph

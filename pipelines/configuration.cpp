@@ -10,6 +10,7 @@
 
 #include "graph/did_you_mean.hpp"
 #include "graph/plugin.hpp"
+#include "graph/wiring.hpp"
 #include "graph/yaml_reader.hpp"
 #include "pipelines/installed.hpp"
 
@@ -214,11 +215,7 @@ std::string effective_yaml(const Configuration& configuration) {
 
 std::string training_parameters(const graph::Plan& models) {
   std::ostringstream text;
-  for (const graph::PlannedNode& node : models.nodes) {
-    text << node.name << '=' << node.spec->name << '(';
-    for (const int input : node.inputs) text << models.streams[std::size_t(input)].name << ' ';
-    text << ")\n";
-  }
+  for (const auto& [node, wires] : graph::wiring(models)) text << node << '=' << wires << '\n';
   for (const auto& [node, values] : graph::effective_parameters(models))
     for (const auto& [key, value] : values) text << node << '.' << key << '=' << value << '\n';
   return text.str();

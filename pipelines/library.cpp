@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -13,12 +14,16 @@
 #include "graph/plugin.hpp"
 #include "graph/runner.hpp"
 #include "nodes/formats/units.hpp"
+#include "nodes/library/content_hash.hpp"
 #include "nodes/library/library_file.hpp"
+#include "pipelines/training_lock.hpp"
 
 namespace posevote {
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::string kEnding = ".library";
 
 std::string symmetry_text(const ModelFile& model) {
   if (!model.symmetries) return "";
@@ -41,15 +46,15 @@ std::string mesh_bytes(const Mesh& mesh) {
   return bytes_of(mesh.points) + bytes_of(mesh.normals) + bytes_of(mesh.faces);
 }
 
-/// The parameters, and obj_id, name and given symmetries of each model: bytes alone do not say which
-/// object it is.
-std::string parameters_with_names(const Configuration& configuration, const ModelFiles& models) {
-  std::string text = training_parameters(configuration.models);
-  for (const ModelFile& model : models) {
-    text += std::to_string(model.obj_id) + " " + model.name + " " + symmetry_text(model) + "\n";
-    if (model.mesh) text += mesh_bytes(*model.mesh);
-  }
-  return text;
+/// Its obj_id, name and given symmetries: bytes alone do not say which object it is.
+std::string identity_of(const ModelFile& model) {
+  const std::string text =
+      std::to_string(model.obj_id) + " " + model.name + " " + symmetry_text(model) + "\n";
+  return model.mesh ? text + mesh_bytes(*model.mesh) : text;
+}
+
+std::vector<fs::path> files_of(const ModelFile& model) {
+  return model.mesh ? std::vector<fs::path>() : std::vector<fs::path>{model.path};
 }
 
 /// The cause by the model's number. The graph numbers the objects of a node that runs once for each:
@@ -87,6 +92,38 @@ void leave_out(const graph::Failure& failure, ModelFiles& models,
                           models[i].path.string() + ": " + failure.node + ": " + failed->second});
   }
   models = std::move(kept);
+}
+
+/// Takes away libraries that nobody has used for a month, as those of former builds, and what killed
+/// processes left half written ("KEY.library.1a2b.tmp"). What others have put there stays.
+void tidy_cache(const fs::path& folder) {
+  constexpr auto kLibraries = std::chrono::days(30), kHalves = std::chrono::days(1);
+  constexpr std::size_t kKeyLength = 32;
+  const auto now = fs::file_time_type::clock::now();
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find(kEnding) != kKeyLength) continue;
+    const bool is_whole = name.ends_with(kEnding);
+    if (!is_whole && !name.ends_with(".tmp") && !name.ends_with(".lock")) continue;
+    const auto written = fs::last_write_time(entry.path(), none);
+    if (!none && now - written > (is_whole ? kLibraries : kHalves)) fs::remove(entry.path(), none);
+  }
+}
+
+/// What the cache holds under that key; null where that is nothing, or nothing that can be used.
+std::shared_ptr<const ModelLibrary> known_library(const Configuration& configuration,
+                                                  const ModelFiles& models, const fs::path& file,
+                                                  const std::string& key, BadModels bad) {
+  if (!fs::exists(file)) return nullptr;
+  std::string why_not;
+  auto library = library::load_library(file, key, why_not);
+  if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
+  if (!library || (bad == BadModels::kStop && !library->left_out.empty())) return nullptr;
+  std::error_code read_only;
+  fs::last_write_time(file, fs::file_time_type::clock::now(), read_only);  // for tidy_cache
+  tell_odd_sizes(configuration, *library, models);
+  return std::make_shared<const ModelLibrary>(std::move(*library));
 }
 
 std::string all_failed(const std::vector<LeftOutModel>& left_out) {
@@ -146,27 +183,31 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
                                                    BadModels bad, graph::Activity* activity) {
   // The same models and parameters give another library after a change of the nodes.
   std::vector<fs::path> files = graph::code_files();
-  for (const ModelFile& model : models)
-    if (!model.mesh) files.push_back(model.path);
-  const std::string key = library::hash_files(files, parameters_with_names(configuration, models));
-  const fs::path file = folder / (key + ".library");
-  if (fs::exists(file)) {
-    std::string why_not;
-    auto library = library::load_library(file, key, why_not);
-    if (library && (bad == BadModels::kLeaveOut || library->left_out.empty())) {
-      tell_odd_sizes(configuration, *library, models);
-      return std::make_shared<const ModelLibrary>(std::move(*library));
-    }
-    if (!library) spdlog::warn("{}: {}; the library is trained anew", file.string(), why_not);
+  std::string text = training_parameters(configuration.models);
+  for (const ModelFile& model : models) {
+    for (fs::path& file : files_of(model)) files.push_back(std::move(file));
+    text += identity_of(model);
   }
+  const std::string key = library::hash_files(files, text);
+  const fs::path file = folder / (key + kEnding);
+  const auto known = [&] { return known_library(configuration, models, file, key, bad); };
+  if (auto library = known()) return library;
+  const TrainingLock lock(file);
+  if (lock.waited())
+    if (auto library = known()) return library;
   auto library = train(configuration, models, bad, activity);
   try {
     fs::create_directories(folder);
     library::save_library(*library, file, key);
+    tidy_cache(folder);
   } catch (const std::exception& error) {
     spdlog::warn("the library is not cached: {}", error.what());
   }
   return library;
+}
+
+std::string hash_model(const ModelFile& model) {
+  return library::hash_files(files_of(model), identity_of(model));
 }
 
 fs::path default_cache() {

@@ -38,12 +38,17 @@ void tell_left_out(const ModelLibrary& library);
 
 /// The library from `folder` if one for exactly these model bytes and parameters, by this build of
 /// the program, is there, else trains it and puts it there. A damaged file is trained anew, with a
-/// warning; a folder that cannot be written costs a warning.
+/// warning; a folder that cannot be written costs a warning. Where one is put there, those that nobody
+/// has used for 30 days are taken away.
 std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configuration,
                                                    const ModelFiles& models,
                                                    const std::filesystem::path& folder,
                                                    BadModels bad = BadModels::kStop,
                                                    graph::Activity* activity = nullptr);
+
+/// Of a model's file, name, number and given symmetries, or of its mesh: what tells it from another.
+/// Throws std::runtime_error naming a file that cannot be read.
+std::string hash_model(const ModelFile& model);
 
 /// Where libraries are cached unless --cache says otherwise: $XDG_CACHE_HOME/posevote or
 /// ~/.cache/posevote.

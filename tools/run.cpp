@@ -2,29 +2,26 @@
 // `posevote run`: a config, models and scans in; poses out.
 #include <spdlog/spdlog.h>
 
-#include <fstream>
 #include <iostream>
-#include <map>
-#include <optional>
-#include <set>
-#include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "graph/runner.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
-#include "nodes/formats/results_writer.hpp"
-#include "nodes/library/library_file.hpp"
 #include "pipelines/inputs.hpp"
 #include "pipelines/library.hpp"
 #include "pipelines/overrides.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
 #include "tools/json_answer.hpp"
+#include "tools/manifest/run_folder.hpp"
+#include "tools/manifest/run_inputs.hpp"
 #include "tools/progress/frame_report.hpp"
 #include "tools/run_lock.hpp"
-#include "tools/run_record.hpp"
+#include "tools/stream/followed_scans.hpp"
+#include "tools/stream/memory.hpp"
+#include "tools/stream/run_stream.hpp"
 #include "tools/text.hpp"
-#include "tools/write_text.hpp"
 
 namespace posevote {
 namespace {
@@ -46,14 +43,19 @@ Configuration read_configuration(const RunCommand& command) {
                             command.pipeline, options);
 }
 
-std::vector<SceneEntry> find_scenes(const RunCommand& command) {
+std::vector<SceneEntry> find_scenes(const RunCommand& command, const StreamOptions& options) {
+  if (options.follow) return {};
   if (command.scenes.empty() == command.dataset.empty())
     throw std::invalid_argument("expected --scenes FILE... or --dataset DIR, one of them");
   return command.dataset.empty() ? list_scenes(command.scenes)
                                  : list_dataset_scenes(command.dataset, command.split);
 }
 
+/// None where they come in a library.
 ModelFiles find_models(const RunCommand& command) {
+  if (!command.library.empty() && !command.models.empty())
+    throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
+  if (!command.library.empty()) return {};
   std::vector<std::string> files = command.models;
   if (files.empty() && !command.dataset.empty())
     files = list_dataset_models(command.dataset, command.split);
@@ -62,9 +64,9 @@ ModelFiles find_models(const RunCommand& command) {
 }
 
 std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
-                                                 const Configuration& configuration) {
+                                                 const Configuration& configuration,
+                                                 const ModelFiles& models) {
   if (command.library.empty()) {
-    const ModelFiles models = find_models(command);
     graph::Activity activity;
     const Progress progress(
         {"preparing " + std::to_string(models.size()) + " models", 0, &activity, !command.quiet});
@@ -72,94 +74,52 @@ std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
                           command.cache.empty() ? default_cache() : fs::path(command.cache),
                           bad_models(command.on_error), &activity);
   }
-  if (!command.models.empty())
-    throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
-  std::string why_not;
-  auto library = library::load_library(command.library, library_key(configuration), why_not);
-  if (!library)
-    throw std::invalid_argument(command.library + ": " + why_not + "; train it with this config");
+  auto library = load_trained(command.library, configuration);
   tell_odd_sizes(configuration, *library, {});
-  return std::make_shared<const ModelLibrary>(std::move(*library));
-}
-
-/// The config that repeats the run, with what else its results depend on as a comment.
-std::string describe_run(const RunCommand& command, const Configuration& configuration,
-                         const ModelLibrary& library) {
-  return "# posevote run --seed " + std::to_string(command.seed) + "; models " +
-         library::hash_library(library) + "\n" + effective_yaml(configuration);
-}
-
-/// A resumed run must be the same run.
-void check_same_run(const fs::path& file, const std::string& text) {
-  if (!fs::exists(file)) return;
-  std::ifstream old(file, std::ios::binary);
-  std::ostringstream before;
-  before << old.rdbuf();
-  if (before.str() != text)
-    throw std::invalid_argument(
-        file.string() +
-        ": the run to resume had other parameters, models or seed; choose another --out");
-}
-
-std::map<std::size_t, fs::path> files_of(const std::vector<SceneEntry>& scenes) {
-  std::map<std::size_t, fs::path> files;
-  for (const SceneEntry& scene : scenes) files[scene.number] = scene.file.path;
-  return files;
-}
-
-/// The formats of write_results; empty-handed where the pipeline has no such node.
-std::optional<std::vector<std::string>> result_formats(const Configuration& configuration) {
-  for (const graph::PlannedNode& node : configuration.scenes.nodes)
-    if (node.spec->name == "write_results")
-      for (const graph::ParamSpec& param : node.spec->params)
-        if (param.name == "format") return graph::split_list(param.get(node.params.get()));
-  return std::nullopt;
-}
-
-/// Takes away what a run writes, and nothing else that may lie there.
-void remove_earlier_run(const fs::path& out) {
-  for (const char* file :
-       {"results.csv", "results.json", "detections.csv", "failures.json", "effective.yaml",
-        "trace.json", "run.json", "pictures", "overlays", "correspondences"})
-    fs::remove_all(out / file);
-}
-
-/// Makes the files for the results and leaves out the scans that an earlier run answered.
-void begin_run(const RunCommand& command, const Configuration& configuration,
-               const ModelLibrary& library, std::vector<SceneEntry>& scenes) {
-  if (command.overwrite) remove_earlier_run(command.out);
-  const auto formats = result_formats(configuration);
-  if (!formats) {
-    spdlog::warn("{}: no write_results in the pipeline: no results are written",
-                 configuration.pipeline);
-    return fs::create_directories(command.out), void();
-  }
-  const std::set<std::size_t> answered = formats::begin_results(
-      command.out, command.resume, files_of(scenes), library.left_out, *formats);
-  std::erase_if(scenes, [&](const SceneEntry& scene) { return answered.contains(scene.number); });
-  if (!answered.empty()) spdlog::info("{} frames are answered already", answered.size());
+  return library;
 }
 
 graph::RunSummary run_scenes(const RunCommand& command, const Configuration& configuration,
-                             const graph::Constants& constants,
-                             const std::vector<SceneEntry>& scenes,
-                             const std::atomic<bool>& interrupted, std::size_t& found) {
+                             const graph::Constants& constants, stream::Scans& scans,
+                             std::size_t tokens, const std::atomic<bool>& interrupted,
+                             std::size_t& found) {
   graph::Activity activity;
-  FrameReport report(command, configuration.scenes, scenes.size(), activity, interrupted);
-  const auto make_frame = [&](std::size_t i) {
-    const SceneEntry& scene = scenes[i];
+  FrameReport report(command, configuration.scenes, scans.count(), activity, interrupted);
+  const auto next_frame = [&]() -> std::optional<graph::Frame<SceneFile>> {
+    const std::optional<SceneEntry> scene = scans.next();
+    if (!scene) return std::nullopt;
     return graph::Frame<SceneFile>{
-        {scene.number, scene.name, command.out, command.seed, scene.file.path, {}}, {scene.file}};
+        {scene->number, scene->name, command.out, command.seed, scene->file.path, {}},
+        {scene->file}};
   };
   const graph::RunSummary summary =
-      graph::run(configuration.scenes, constants, graph::counted(scenes.size(), make_frame),
-                 {command.tokens, command.on_error == "stop", &interrupted, &activity},
-                 std::function([&report](const graph::FrameResult<Detections>& result) {
+      graph::run(configuration.scenes, constants, next_frame,
+                 {tokens, command.on_error == "stop", &interrupted, &activity},
+                 std::function([&](const graph::FrameResult<Detections>& result) {
                    report.add(result);
+                   scans.answered(result.context.number);
                  }));
   report.finish();
   found = report.found();
   return summary;
+}
+
+/// Frames in flight.
+std::size_t tokens_of(const RunCommand& command, const StreamOptions& options,
+                      const std::vector<SceneEntry>& scenes) {
+  const std::size_t threads =
+      command.threads > 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
+  return stream::tokens_within(stream::memory_limit(options.memory),
+                               command.tokens > 0 ? command.tokens : 2 * threads, scenes);
+}
+
+/// Null where the scans are listed.
+std::unique_ptr<stream::Scans> follow_scans(const RunCommand& command, const StreamOptions& options,
+                                            const std::atomic<bool>& interrupted) {
+  if (!options.follow) return nullptr;
+  if (command.scenes.size() != 1)
+    throw std::runtime_error("--follow expects --scenes FOLDER, one of them");
+  return std::make_unique<stream::FollowedScans>(command.scenes[0], options.real_time, interrupted);
 }
 
 /// How many are left, and the command that goes on: an experiment does so by itself.
@@ -179,15 +139,24 @@ int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, b
 }  // namespace
 
 int run_command(const RunCommand& command, const std::atomic<bool>& interrupted) {
+  return run_command(command, {}, interrupted);
+}
+
+int run_command(const RunCommand& command, const StreamOptions& options,
+                const std::atomic<bool>& interrupted) {
   const JsonAnswer answer(command.json);
   const Configuration configuration = read_configuration(command);
   if (configuration.scenes.nodes.empty())
     throw std::invalid_argument(command.config +
                                 ": its pipeline has no `models`; expected one that "
                                 "finds them in scans, as pipelines/recognize.yaml");
-  std::vector<SceneEntry> scenes = take_shard(find_scenes(command), command.shard);
-  if (scenes.empty()) throw std::invalid_argument("no scan is left to read in this shard");
-  const auto library = as_arguments([&] { return find_library(command, configuration); });
+  const std::vector<SceneEntry> all = find_scenes(command, options);
+  std::vector<SceneEntry> scenes = take_shard(all, command.shard);
+  auto scans = as_arguments([&] { return follow_scans(command, options, interrupted); });
+  if (scenes.empty() && !scans)
+    throw std::invalid_argument("no scan is left to read in this shard");
+  const ModelFiles models = find_models(command);
+  const auto library = as_arguments([&] { return find_library(command, configuration, models); });
   tell_left_out(*library);
   if (!library->octaves.front().index->reproducible())
     spdlog::warn("the approximate index is built at random: results differ from run to run");
@@ -196,27 +165,26 @@ int run_command(const RunCommand& command, const std::atomic<bool>& interrupted)
     const Progress progress({"preparing the search", 0, nullptr, !command.quiet});
     return constants_of(configuration, library);
   }();
-  const fs::path effective = fs::path(command.out) / "effective.yaml";
-  const std::string description = describe_run(command, configuration, *library);
   const auto lock = as_arguments([&] { return RunLock(command.out); });
-  if (command.resume) check_same_run(effective, description);
-  as_arguments([&] { return begin_run(command, configuration, *library, scenes); });
-  // A resumed run has it; a full disk must not take it.
-  if (!command.resume || !fs::exists(effective))
-    as_arguments([&] { write_text(effective, description); });
   as_arguments([&] {
-    record_run(command, command.library.empty() ? find_models(command) : ModelFiles(), *library);
+    begin_run(command, configuration, *library,
+              describe_run(command, configuration, models, *library, all), scenes);
   });
   std::size_t found = 0;
+  const std::size_t tokens = tokens_of(command, options, scenes);
+  if (!scans) scans = std::make_unique<stream::ListedScans>(std::move(scenes));
   const graph::RunSummary summary =
-      run_scenes(command, configuration, constants, scenes, interrupted, found);
+      run_scenes(command, configuration, constants, *scans, tokens, interrupted, found);
+  finish_run(command, configuration);
+  if (!command.quiet && !scans->text().empty()) std::cout << scans->text() << "\n";
   std::cout << summary.done << " frames answered, " << summary.failed << " failed; " << found
             << " found; results in " << printable(command.out) << "\n"
             << std::flush;
-  if (interrupted) tell_interrupted(command, scenes.size(), summary);
+  if (interrupted && !options.follow) tell_interrupted(command, scans->count(), summary);
   answer.give({{"answered", summary.done},
                {"failed", summary.failed},
                {"found", found},
+               {"stream", scans->json()},
                {"out", command.out}});
   return exit_status(summary, *library, interrupted);
 }

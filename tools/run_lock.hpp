@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 namespace posevote {
 
@@ -19,5 +20,9 @@ class RunLock {
  private:
   int folder_ = -1;
 };
+
+/// The process that holds a folder; 0 where it is not one of this machine. Nothing where nobody holds
+/// it.
+std::optional<int> lock_holder(const std::filesystem::path& out);
 
 }  // namespace posevote

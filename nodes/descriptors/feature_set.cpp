@@ -23,7 +23,6 @@ void require_describable(const Cloud& cloud, const FeaturePoints& points, const 
   if (cloud.normals.rows() != cloud.points.rows())
     throw std::runtime_error("the cloud has " + std::to_string(cloud.points.rows()) +
                              " points but " + std::to_string(cloud.normals.rows()) + " normals");
-  if (points.indices.empty()) throw std::runtime_error("there are no feature points to describe");
   for (const std::uint32_t point : points.indices)
     if (point >= cloud.points.rows())
       throw std::runtime_error("feature point " + std::to_string(point) + " of a cloud of " +

@@ -10,8 +10,8 @@
 
 namespace posevote::descriptors {
 
-/// Throws std::runtime_error if the cloud has no normals, there are no feature points, one of them
-/// is not in the cloud, or the scale is not positive.
+/// Throws std::runtime_error if the cloud has no normals, a feature point is not in the cloud, or the
+/// scale is not positive.
 void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale);
 
 /// Whether the feature point has a finite position and a unit normal, at least roughly.

@@ -2,17 +2,18 @@
 #include "nodes/formats/results_json.hpp"
 
 #include <fstream>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "nodes/formats/json_text.hpp"
+#include "nodes/library/content_hash.hpp"
 
 namespace posevote::formats {
 namespace {
 
 using nlohmann::ordered_json;
 
+const std::string kSum = ",\"checksum\":\"";
 constexpr const char* kLeftOut = "\"models_left_out\": ";
 
 std::vector<double> row_by_row(const Eigen::Isometry3d& T) {
@@ -120,6 +121,27 @@ std::string line(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+std::string record(const ordered_json& json) {
+  std::string text = line(json);
+  text.pop_back();  // }
+  return text + kSum + library::checksum(text) + "\"}";
+}
+
+ordered_json camera_json(const std::optional<Camera>& camera) {
+  if (!camera) return nullptr;
+  return {{"fx", camera->fx},
+          {"fy", camera->fy},
+          {"cx", camera->cx},
+          {"cy", camera->cy},
+          {"depth_scale", camera->depth_scale}};
+}
+
+std::optional<Camera> camera_of(const ordered_json& json) {
+  if (json.is_null()) return std::nullopt;
+  const auto number = [&json](const char* key) { return json.at(key).get<double>(); };
+  return Camera{number("fx"), number("fy"), number("cx"), number("cy"), number("depth_scale")};
+}
+
 ordered_json to_json(const FrameReport& frame, const Detections& detections) {
   ordered_json warnings = ordered_json::array();
   for (const graph::Warning& warning : frame.warnings)
@@ -129,6 +151,8 @@ ordered_json to_json(const FrameReport& frame, const Detections& detections) {
                     {"file", frame.file.path.string()},
                     {"scene_id", frame.file.scene_id},
                     {"im_id", frame.file.im_id},
+                    {"camera", camera_json(frame.file.camera)},
+                    {"scan_hash", frame.scan_hash},
                     {"seconds", frame.seconds},
                     {"stages", frame.stages}};
   for (const auto& [name, figure] : frame.figures)
@@ -181,14 +205,31 @@ std::vector<LeftOutModel> read_left_out(const std::filesystem::path& file) {
   return left_out;
 }
 
-WrittenFrames read_frames(const std::filesystem::path& file, const std::string& key) {
+namespace {
+
+/// Takes the checksum off a line. False where it is wrong, or is not there and must be.
+bool check_sum(std::string& text, NoChecksum unsure) {
+  const std::size_t length = kSum.size() + library::checksum("").size() + 2;  // "}
+  if (text.size() <= length || text.compare(text.size() - length, kSum.size(), kSum) != 0)
+    return unsure == NoChecksum::kTake;
+  const std::string sum = text.substr(text.size() - length);
+  text.resize(text.size() - length);
+  if (sum != kSum + library::checksum(text) + "\"}") return false;
+  text += '}';
+  return true;
+}
+
+}  // namespace
+
+WrittenFrames read_frames(const std::filesystem::path& file, const std::string& key,
+                          NoChecksum unsure) {
   WrittenFrames frames;
   std::ifstream stream(file);
   for (std::string text; std::getline(stream, text);) {
     if (!text.starts_with("{\"frame\"")) continue;
     if (text.ends_with(',')) text.pop_back();
     try {
-      auto frame = parse_json<ordered_json>(text);
+      auto frame = check_sum(text, unsure) ? parse_json<ordered_json>(text) : ordered_json();
       if (frame.contains(key))
         frames.items.push_back(std::move(frame));
       else

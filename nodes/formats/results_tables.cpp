@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/formats/results_tables.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -50,6 +51,10 @@ std::string table_rows(const ordered_json& frame) {
     rows += field(found.at("rmse_m")) + "\n";
   }
   return rows;
+}
+
+bool has(const std::vector<std::string>& formats, const std::string& format) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
 }  // namespace posevote::formats

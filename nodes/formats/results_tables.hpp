@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace posevote::formats {
 
@@ -16,5 +17,18 @@ std::string bop_rows(const nlohmann::ordered_json& frame);
 inline constexpr const char* kTableHeader =
     "frame,scan,scene_id,im_id,obj_id,model,confidence,x_m,y_m,z_m,qw,qx,qy,qz,rms_m\n";
 std::string table_rows(const nlohmann::ordered_json& frame);
+
+/// The tables that a format of write_results asks for.
+struct TableFormat {
+  const char* format;
+  const char* file;
+  const char* header;
+  std::string (*rows)(const nlohmann::ordered_json& frame);
+};
+inline constexpr TableFormat kTables[] = {{"bop", "results.csv", kBopHeader, bop_rows},
+                                          {"csv", "detections.csv", kTableHeader, table_rows}};
+
+/// Whether `format` is one of those.
+bool has(const std::vector<std::string>& formats, const std::string& format);
 
 }  // namespace posevote::formats

@@ -3,11 +3,10 @@
 // failures.json.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -27,17 +26,6 @@ struct FailureReport {
 /// failures.json is written always.
 inline const std::vector<std::string> kAllResults{"json", "csv", "bop"};
 
-/// Makes the files of a run in `out`; with `resume`, they hold what an earlier one answered, whose
-/// frames are returned. Failed ones are not among them: a resumed run tries them again. `scans`:
-/// the file of each frame. `left_out`: models that are not sought. Throws std::invalid_argument,
-/// and leaves all as it is, where `out` holds another run and `resume` is false, or where it holds
-/// frames of other files, or where a run is to be resumed that writes no results.json; and
-/// std::runtime_error where it cannot be written.
-std::set<std::size_t> begin_results(const std::filesystem::path& out, bool resume,
-                                    const std::map<std::size_t, std::filesystem::path>& scans = {},
-                                    const std::vector<LeftOutModel>& left_out = {},
-                                    const std::vector<std::string>& formats = kAllResults);
-
 /// A table of a run, of which a row is made from a frame's object.
 class ResultsTable {
  public:
@@ -47,6 +35,7 @@ class ResultsTable {
   ResultsTable(std::filesystem::path file, Rows rows);
   /// Throws std::runtime_error where the file cannot be written.
   void append(const nlohmann::ordered_json& frame);
+  const std::filesystem::path& file() const { return file_; }
 
  private:
   std::filesystem::path file_;
@@ -54,8 +43,9 @@ class ResultsTable {
   Rows rows_;
 };
 
-/// Appends to the files that begin_results has made. Throws std::runtime_error where one cannot be
-/// written.
+/// Appends to the files that begin_results (results_files.hpp) has made. After each frame they are
+/// whole, whoever kills the run; on the disk, as a loss of power leaves them, is what was written a
+/// second or more before the last frame. Throws std::runtime_error where one cannot be written.
 class ResultsWriter {
  public:
   explicit ResultsWriter(const std::filesystem::path& out,
@@ -67,6 +57,10 @@ class ResultsWriter {
   void write(const FailureReport& failure);
 
  private:
+  void sync();
+
+  std::filesystem::path out_;
+  std::chrono::steady_clock::time_point synced_;
   std::vector<ResultsTable> tables_;
   std::optional<AppendJson> results_;
   AppendJson failures_;

@@ -89,8 +89,10 @@ Voxels group_by_voxel(const PointMatrix& points, const std::vector<std::uint32_t
   const Extent extent = extent_of(points, rows);
   const Eigen::Array3d counts = ((extent.high - extent.low) * per_leaf).floor() + 1;
   if (!(counts.maxCoeff() < 4e9)) throw_too_large(extent.largest(), static_cast<double>(leaf));
-  return counts.prod() < 4e9 ? grouped<std::uint32_t>(points, rows, extent, counts, per_leaf)
-                             : grouped<LargeNumber>(points, rows, extent, counts, per_leaf);
+  // The members of a large scan are most of the memory that it takes here.
+  if (counts.prod() < 4e9) return grouped<std::uint32_t>(points, rows, extent, counts, per_leaf);
+  if (counts.prod() < 1e19) return grouped<std::uint64_t>(points, rows, extent, counts, per_leaf);
+  return grouped<LargeNumber>(points, rows, extent, counts, per_leaf);
 }
 
 Voxels group_by_voxel(const PointMatrix& points, float leaf) {

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "nodes/data/model.hpp"
 
@@ -28,12 +27,7 @@ void save_library(const ModelLibrary& library, const std::filesystem::path& path
 std::optional<ModelLibrary> load_library(const std::filesystem::path& path, const std::string& key,
                                          std::string& why_not);
 
-/// XXH3-128 over all that a library holds: 32 hexadecimal digits.
+/// checksum (content_hash.hpp) of all that a library holds.
 std::string hash_library(const ModelLibrary& library);
-
-/// XXH3-128 over the files' lengths and bytes, in this order, and the text: 32 hexadecimal digits.
-/// Throws std::runtime_error naming a file that cannot be read.
-std::string hash_files(const std::vector<std::filesystem::path>& files,
-                       const std::string& parameters);
 
 }  // namespace posevote::library

@@ -50,6 +50,7 @@ struct Params {
   double depth_scale = 1;
   double min_depth = 0;
   double max_depth = 0;
+  int max_points = 50'000'000;
   bool colors = true;
 };
 
@@ -179,17 +180,23 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
   const Camera given{params.fx, params.fy, params.cx, params.cy, params.depth_scale};
   Camera camera = file.camera.value_or(given);
   if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
-  LoadedDepth image = file.depth ? *file.depth : read_depth(file.path, camera);
+  const DepthRange range{params.min_depth, params.max_depth,
+                         static_cast<std::size_t>(params.max_points)};
+  LoadedDepth image = file.depth ? *file.depth : read_depth(file.path, camera, range);
   try {
     if (params.colors && !file.color.empty()) add_colors(file.color, image);
   } catch (const std::runtime_error& error) {
     context.warn(std::string("its colours are left out: ") + error.what());
   }
-  return points_of(image, camera, {params.min_depth, params.max_depth});
+  return points_of(image, camera, range);
 }
 
 Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
   Scan scan = load_file(file, context, params);
+  if (scan.points.rows() > params.max_points)
+    throw std::runtime_error("has " + std::to_string(scan.points.rows()) +
+                             " points, more than the " + std::to_string(params.max_points) +
+                             " that memory is granted for (load_scene.max_points, --memory)");
   if (!params.colors) scan.colors.resize(0, 3);
   const Eigen::Vector3d place = scan.view.origin.cast<double>();
   context.tell("sensor_pose", {place.x(), place.y(), place.z()});
@@ -218,6 +225,9 @@ const auto registered =
                graph::at_least(0))
         .param("max_depth", &Params::max_depth, "m",
                "Farther pixels of a depth image are left out; 0: no limit.", graph::at_least(0))
+        .param("max_points", &Params::max_points, "",
+               "A scan of more points or pixels fails; one takes up to 64 bytes of memory.",
+               graph::at_least(1))
         .param("colors", &Params::colors, "",
                "Whether colours are read, of the file or of the image beside it. Colour tells what "
                "shape cannot, of models that have colours, too.")

@@ -75,9 +75,15 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
   return scan;
 }
 
-LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera) {
+LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
+                       const DepthRange& range) {
   check_camera(camera);
   const formats::DepthImage image = formats::read_depth_image(path);
+  if (range.most_pixels > 0 && image.width * image.height > range.most_pixels)
+    throw std::runtime_error("has " + std::to_string(image.width) + " x " +
+                             std::to_string(image.height) + " pixels, more than the " +
+                             std::to_string(range.most_pixels) +
+                             " that memory is granted for (load_scene.max_points, --memory)");
   return {image.width, image.height, formats::depths_of(image, camera.depth_scale)};
 }
 

@@ -12,6 +12,7 @@ namespace posevote::load {
 struct DepthRange {
   double near = 0;
   double far = 0;
+  std::size_t most_pixels = 0;  ///< of a file; 0: no limit
 };
 
 /// The points that a depth image measured, row by row: x right, y down, z forward, the camera at the
@@ -20,7 +21,8 @@ struct DepthRange {
 Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange& range);
 
 /// The depths of a file, 0 being no measurement. The error does not repeat the path.
-LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera);
+LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
+                       const DepthRange& range);
 
 /// Adds the colours of the same pixels. Throws std::runtime_error that names the image and what is
 /// wrong with it; the depths then stay without.

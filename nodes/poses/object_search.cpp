@@ -112,9 +112,13 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
   return best_alike(sought_, *first, taken_);
 }
 
-void ObjectSearch::accept() {
-  taken_.take(sought_.model, *best_);
+void ObjectSearch::accept(const Candidate& known) {
+  taken_.take(sought_.model, known);
   ++accepted_;
+}
+
+void ObjectSearch::accept() {
+  accept(*best_);
   seconds_ = 0;
   best_.reset();
   std::erase_if(pool_, [this](const Candidate& other) {

@@ -49,6 +49,8 @@ class ObjectSearch {
   /// Makes `best` an instance, whose neighbourhood is closed to others of this object. To be called
   /// before what it explains is taken out of the scan.
   void accept();
+  /// The same of an instance that is known without a search, before the first is proposed.
+  void accept(const Candidate& known);
 
  private:
   void show(const char* step, const Candidates& candidates) const {

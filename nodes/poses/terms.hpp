@@ -56,8 +56,8 @@ struct ConfidenceTerms {
   Clues weights{1.249, 1.37, 2.128, -2.795, 0.684, 0.107, 16.64, 1.783};
 };
 
-/// What colours say of it (color_fit.hpp), where there are any. The weights were fitted (posevote
-/// calibrate --colors) on coloured images of the same scenes.
+/// What colours say of it (color_fit.hpp), where there are any. The weights are not fitted yet (posevote
+/// calibrate --colors): colours choose between poses, and leave the confidence alone.
 struct ColorTerms {
   double lightness = 0.7;  ///< x chromaticity
   double noise = 3;        ///< units of CIELAB

@@ -14,14 +14,26 @@
 // without votes gives no detections; that is no failure. Points without a normal are never matched.
 // Known limit: an object of which one flat side alone is seen scores low.
 //
+// Two nodes: segment_objects for single scans, and segment_new_objects for a stream, in which what
+// the frame before answered needs no search (look_again). The latter also hands on to the next frame.
+//
 //   segment_objects: {in: [votes, densities, scene_features, scene_cloud, scale], out: detections,
 //                     max_instances: 1}
+//   segment_new_objects: {in: [votes, densities, scene_features, scene_cloud, scale, seen],
+//                         out: [detections, sightings]}
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 #include "nodes/density/refine_mode.hpp"
-#include "nodes/poses/segment_params.hpp"
+#include "nodes/poses/sightings.hpp"
 #include "nodes/segment/vote_search.hpp"
 
 namespace posevote::segment {
 namespace {
+
+using ModelVotes = PerObject<VoteSet>;
 
 Detection make_detection(const LiveVotes& object, const poses::Candidate& candidate,
                          const poses::ConfidenceTerms& terms) {
@@ -34,9 +46,31 @@ Detection make_detection(const LiveVotes& object, const poses::Candidate& candid
   return detection;
 }
 
-Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,
-                           const FeatureSet& scene_features, const Cloud& scene_cloud,
-                           const Scale& scale, const poses::SegmentParams& params) {
+/// Of an instance that needed no search.
+Detection make_detection(const ModelVotes& objects, const poses::Sighting& seen,
+                         const poses::ConfidenceTerms& terms) {
+  Detection detection = poses::make_detection(*objects[seen.object].model, seen.candidate, terms);
+  detection.density = seen.density;
+  detection.runner_up_density = seen.runner_up_density;
+  return detection;
+}
+
+/// Takes what is known already out of the scan, and closes its places.
+void accept(const std::vector<poses::Sighting>& known, std::vector<poses::ObjectSearch>& searches,
+            poses::ScanState& scan) {
+  for (const poses::Sighting& one : known) {
+    poses::ObjectSearch& search = searches[one.object];
+    search.accept(one.candidate);
+    scan.take_out(search.model(), one.candidate.T_scene_model, search.params().explained_distance);
+    scan.usual_residual.add(one.candidate.fit,
+                            scan.range_of(search.model(), one.candidate.T_scene_model));
+  }
+}
+
+/// What is found beside what is known. `sightings` receives the instances.
+Detections segment(const ModelVotes& votes, const PerObject<VoteDensity>& densities,
+                   const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale,
+                   const poses::SegmentParams& params, std::vector<poses::Sighting>& sightings) {
   poses::check_scan(scene_features, scene_cloud, scale);
   check_votes(votes, densities, static_cast<std::size_t>(scene_features.points.rows()));
   for (const auto& slot : votes.slots) poses::check_model(*slot->model);
@@ -48,11 +82,48 @@ Detections segment_objects(const PerObject<VoteSet>& votes, const PerObject<Vote
   for (LiveVotes& object : objects)
     searches.emplace_back(sought_for(object, scan, params),
                           propose_from(object, scan, params.terms));
-  return poses::make_detections(
-      poses::find_instances(searches, scan), params, [&](const poses::Instance& instance) {
+  accept(sightings, searches, scan);
+  const poses::Instances instances = poses::find_instances(searches, scan);
+  Detections detections =
+      poses::make_detections(instances, params, [&](const poses::Instance& instance) {
         return make_detection(objects[instance.object], instance.candidate,
                               params.terms.confidence);
       });
+  for (std::size_t i = 0; i < instances.found.size(); ++i)
+    sightings.push_back({instances.found[i].object, instances.found[i].candidate,
+                         detections.items[i].density, detections.items[i].runner_up_density});
+  return detections;
+}
+
+Detections segment_objects(const ModelVotes& votes, const PerObject<VoteDensity>& densities,
+                           const FeatureSet& scene_features, const Cloud& scene_cloud,
+                           const Scale& scale, const poses::SegmentParams& params) {
+  std::vector<poses::Sighting> none;
+  return segment(votes, densities, scene_features, scene_cloud, scale, params, none);
+}
+
+template <class Item, class Confidence>
+void sort_by_confidence(std::vector<Item>& items, const Confidence& confidence) {
+  std::stable_sort(items.begin(), items.end(),
+                   [&](const Item& a, const Item& b) { return confidence(a) > confidence(b); });
+}
+
+std::tuple<Detections, poses::Sightings> segment_new_objects(
+    const ModelVotes& votes, const PerObject<VoteDensity>& densities,
+    const FeatureSet& scene_features, const Cloud& scene_cloud, const Scale& scale,
+    const poses::Sightings& seen, const poses::SegmentParams& params) {
+  poses::Sightings sightings = seen;
+  sightings.params = params;
+  Detections detections;
+  if (seen.is_searched)
+    detections =
+        segment(votes, densities, scene_features, scene_cloud, scale, params, sightings.items);
+  for (const poses::Sighting& one : seen.items)
+    detections.items.push_back(make_detection(votes, one, params.terms.confidence));
+  sort_by_confidence(detections.items, [](const Detection& one) { return one.confidence; });
+  sort_by_confidence(sightings.items,
+                     [](const poses::Sighting& one) { return one.candidate.confidence; });
+  return {std::move(detections), std::move(sightings)};
 }
 
 const auto registered = poses::with_segment_params(
@@ -65,6 +136,19 @@ const auto registered = poses::with_segment_params(
         .input("scene_cloud")
         .input("scale")
         .output("detections"));
+
+const auto registered_for_streams = poses::with_segment_params(
+    graph::register_node("segment_new_objects", segment_new_objects,
+                         "The same of a stream: beside the instances that look_again saw, finds "
+                         "those of the feature points that it left.")
+        .input("votes")
+        .input("densities")
+        .input("scene_features")
+        .input("scene_cloud")
+        .input("scale")
+        .input("seen")
+        .output("detections")
+        .output("sightings"));
 
 }  // namespace
 }  // namespace posevote::segment

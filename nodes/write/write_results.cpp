@@ -14,6 +14,7 @@
 
 #include "graph/registry.hpp"
 #include "nodes/formats/results_writer.hpp"
+#include "nodes/formats/scan_hash.hpp"
 
 namespace posevote::write {
 namespace {
@@ -50,6 +51,10 @@ formats::FrameReport report_of(const SceneFile& file, const graph::FrameContext&
     for (const std::string& what : stage.warnings) report.warnings.push_back({stage.node, what});
   }
   report.seconds = graph::cost(spans);
+  try {
+    report.scan_hash = formats::hash_scan(file);
+  } catch (const std::runtime_error&) {  // it has gone meanwhile: nobody can say what it held
+  }
   return report;
 }
 

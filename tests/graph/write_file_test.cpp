@@ -11,6 +11,8 @@
 
 using namespace posevote;
 using Catch::Contains;
+using graph::sync_file;
+using graph::write_durably;
 using graph::write_file;
 using test::read_text;
 namespace fs = std::filesystem;
@@ -44,6 +46,20 @@ TEST_CASE("a file is written whole or stays as it was", "[write_file]") {
   write_file(file, "new");
   CHECK(read_text(file) == "new");
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);  // nothing left beside it
+}
+
+TEST_CASE("what is to outlast a loss of power is written the same way", "[write_file]") {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "a.txt";
+  write_durably(file, "old");
+  {
+    const SmallDisk disk(100);
+    CHECK_THROWS_WITH(write_durably(file, std::string(1000, 'x')), Contains("a.txt: cannot be"));
+  }
+  CHECK(read_text(file) == "old");
+  CHECK_NOTHROW(sync_file(file));
+  CHECK_NOTHROW(sync_file(folder.path()));
+  CHECK_THROWS_WITH(sync_file(folder / "none"), Contains("none: cannot be written: No such file"));
 }
 
 TEST_CASE("links lead to what is written, and what is no plain file stays what it is",

@@ -69,3 +69,23 @@ TEST_CASE("a trained library, and one that was trained otherwise", "[run]") {
   CHECK(other.status == 2);
   CHECK(other.output.find("two.library") != std::string::npos);
 }
+
+TEST_CASE("a new library in the cache takes away what nobody has used for a month", "[run]") {
+  const World& w = world();
+  const TemporaryFolder folder;
+  const std::string key(32, 'a'), other(32, 'b'), half = ".library.1a2b.tmp";
+  const auto put = [&folder](const std::string& name, int days) {
+    const fs::path file = folder.write(name, "x");
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24 * days + 1));
+    return file;
+  };
+  const fs::path old = put(key + ".library", 30), torn = put(key + half, 1);
+  const fs::path used = put(other + ".library", 29), fresh = put(other + half, 0);
+  const fs::path mine = put("mine.library", 99), notes = put(key + ".library.txt", 99);
+  const CommandResult run = w.run("tidy", "--scenes " + (w.scans / "000001.ply").string() +
+                                              " --cache " + folder.path().string());
+  INFO(run.output);
+  REQUIRE(run.status == 0);
+  for (const fs::path& gone : {old, torn}) CHECK_FALSE(fs::exists(gone));
+  for (const fs::path& kept : {used, fresh, mine, notes}) CHECK(fs::exists(kept));
+}

@@ -122,20 +122,3 @@ TEST_CASE("one run at a time writes into a folder", "[run]") {
   }
   CHECK(w.run("held", again).status == 0);
 }
-
-TEST_CASE("a scan of the same name that holds something else is not taken as answered", "[run]") {
-  const World& w = world();
-  const fs::path one = w.folder / "sets/a/scan.ply", other = w.folder / "sets/b/scan.ply";
-  for (const auto& [from, to] : {std::pair("000001.ply", one), std::pair("000002.ply", other)}) {
-    fs::create_directories(to.parent_path());
-    fs::copy(w.scans / from, to);
-  }
-  REQUIRE(w.run("same_name", "--scenes " + one.string()).status == 0);
-  const CommandResult more =
-      w.run("same_name", "--resume --scenes " + one.string() + " " + other.string());
-  INFO(more.output);
-  CHECK(more.status == 0);
-  const CommandResult changed = w.run("same_name", "--resume --scenes " + other.string());
-  CHECK(changed.status == 2);
-  CHECK(changed.output.find("sets/b/scan.ply: the scans have changed") != std::string::npos);
-}

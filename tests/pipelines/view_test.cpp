@@ -135,11 +135,11 @@ TEST_CASE("a run is resumed with each start on record", "[view]") {
   REQUIRE(run_posevote(folder, run).status == 0);
   REQUIRE(run_posevote(folder, run + " --resume").status == 0);
   const nlohmann::json record = read_json(folder / "out/run.json");
-  REQUIRE(record.size() == 2);
-  CHECK(record[1]["command"].back() == "--resume");
-  CHECK(record[0]["models"].size() == 2);
+  REQUIRE(record["starts"].size() == 2);
+  CHECK(record["starts"][1]["command"].back() == "--resume");
+  CHECK(record["models"].size() == 2);
   REQUIRE(run_posevote(folder, run + " --overwrite").status == 0);
-  CHECK(read_json(folder / "out/run.json").size() == 1);
+  CHECK(read_json(folder / "out/run.json")["starts"].size() == 1);
 }
 
 TEST_CASE("the page in a browser: turning, ticks, filters, details", "[view]") {

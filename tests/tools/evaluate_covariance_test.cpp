@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "nodes/formats/results_writer.hpp"
+#include "nodes/formats/results_files.hpp"
 #include "tests/tools/truth_set.hpp"
 #include "tools/evaluate/results_json.hpp"
 
@@ -107,7 +107,7 @@ TEST_CASE("rows of results.csv get their covariances from the results.json besid
   detections.items[1].T_scene_model.translation().x() += 0.004;
   formats::FrameReport frame;
   frame.file.scene_id = 1, frame.file.im_id = 3;
-  formats::begin_results(set / "out", false);
+  formats::begin_results(set / "out");
   formats::ResultsWriter(set / "out").write(frame, detections, {});
   for (const char* file : {"out/results.csv", "out/results.json"}) {
     EvaluateOptions options;

@@ -4,10 +4,10 @@
 #include <set>
 
 #include "tests/support/temporary_folder.hpp"
+#include "tools/manifest/manifest.hpp"
 #include "tools/report/model_list.hpp"
 #include "tools/report/pack.hpp"
 #include "tools/report/run_data.hpp"
-#include "tools/run_record.hpp"
 
 using namespace posevote;
 using namespace posevote::page;
@@ -138,10 +138,4 @@ TEST_CASE("models are those sought, those left out, and others by name", "[repor
 TEST_CASE("a command line can be pasted into a shell", "[report]") {
   CHECK(shell_line({"posevote", "run", "a b", "it's", "", "x.y=[1]"}) ==
         "posevote run 'a b' 'it'\\''s' '' 'x.y=[1]'");
-  const test::TemporaryFolder folder;
-  CHECK(read_run_records(folder.path()).empty());
-  folder.write("run.json", "[{\"command\": 3}, {\"command\": [\"posevote\", \"<\"]}]");
-  CHECK(read_run_records(folder.path()).size() == 1);
-  folder.write("run.json", "{\"command\"");
-  CHECK(read_run_records(folder.path()).empty());
 }

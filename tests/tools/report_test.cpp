@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
-#include "nodes/formats/results_writer.hpp"
+#include "nodes/formats/results_files.hpp"
 #include "tests/support/command.hpp"
 #include "tools/evaluate/write_evaluation.hpp"
 #include "tools/experiment/experiment.hpp"
@@ -108,7 +108,7 @@ formats::FrameReport frame(std::size_t number, const std::string& name) {
 
 /// A run of three frames and a failure, the scans of which are gone.
 void write_run(const std::filesystem::path& folder) {
-  formats::begin_results(folder, false);
+  formats::begin_results(folder);
   formats::ResultsWriter writer(folder);
   writer.write(frame(0, "one"), {{found("chef", 0.91), found("chicken", 0.42)}}, {});
   writer.write(frame(1, "two"), {{found("chef", 0.93)}}, {});
@@ -169,7 +169,7 @@ TEST_CASE("odd names and messages", "[report]") {
   const TemporaryFolder folder;
   const std::string name = "a<b>&\"c\"\xff";
   {
-    formats::begin_results(folder.path(), false);
+    formats::begin_results(folder.path());
     formats::ResultsWriter writer(folder.path());
     writer.write(frame(0, name), {{found("</td><script>x</script>", 2)}}, {});
     writer.write(formats::FailureReport{1, name, "<node>", "\"&\xfe\n"});

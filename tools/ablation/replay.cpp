@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/awaited.hpp"
 #include "graph/node_call.hpp"
 
 namespace posevote::ablation {
@@ -24,7 +25,7 @@ std::vector<bool> nodes_before(const graph::Plan& plan, int result) {
     open.pop_back();
     if (producer < 0 || needed[std::size_t(producer)]) continue;
     needed[std::size_t(producer)] = true;
-    const std::vector<int>& inputs = plan.nodes[std::size_t(producer)].inputs;
+    const std::vector<int> inputs = graph::awaited(plan.nodes[std::size_t(producer)]);
     open.insert(open.end(), inputs.begin(), inputs.end());
   }
   return needed;
@@ -33,7 +34,8 @@ std::vector<bool> nodes_before(const graph::Plan& plan, int result) {
 void call(const graph::PlannedNode& node, const graph::FrameContext& context,
           std::vector<graph::Value>& values) {
   std::vector<graph::Value> inputs;
-  for (const int input : node.inputs) inputs.push_back(values[std::size_t(input)]);
+  for (std::size_t i = 0; i < node.inputs.size(); ++i)
+    inputs.push_back(graph::is_previous(node, i) ? nullptr : values[std::size_t(node.inputs[i])]);
   std::vector<graph::Value> made = graph::call_node(node, inputs, context);
   for (std::size_t i = 0; i < made.size(); ++i)
     if (node.outputs[i] >= 0) values[std::size_t(node.outputs[i])] = std::move(made[i]);

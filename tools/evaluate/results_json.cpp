@@ -52,7 +52,11 @@ std::vector<FoundInstance> read_results_json(const std::string& file) {
     throw std::runtime_error(file + ": cannot be read: no such file?");
   std::vector<FoundInstance> all;
   try {
-    for (const Json& frame : formats::read_frames(file, "detections").items)
+    const formats::WrittenFrames frames = formats::read_frames(file, "detections");
+    if (frames.torn > 0)
+      throw std::runtime_error(file + ": " + std::to_string(frames.torn) +
+                               " damaged records; `posevote run --resume` does their frames again");
+    for (const Json& frame : frames.items)
       for (const Json& detection : frame.at("detections")) {
         all.push_back(found_instance(frame, detection));
         all.back().line = static_cast<int>(all.size());

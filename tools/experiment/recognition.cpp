@@ -89,7 +89,7 @@ RunCommand make_run(const ExperimentCommand& command, const Method& method, cons
   if (command.quick && method.name == "opencv_ppf")
     run.set.emplace_back("train_opencv_ppf.sampling=0.1");
   run.shard = shard;
-  run.resume = fs::exists(out / method.name / "effective.yaml");
+  run.resume = fs::exists(out / method.name / "results.json");
   run.lines = false;
   return run;
 }

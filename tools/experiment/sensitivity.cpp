@@ -111,7 +111,7 @@ int run_method(const Method& method, const Subject& subject, const fs::path& sca
   run.scenes = {scans.string()};
   run.out = (out / method.name).string();
   run.cache = (out / "cache").string();
-  run.resume = fs::exists(out / method.name / "effective.yaml");
+  run.resume = fs::exists(out / method.name / "results.json");
   run.lines = false;
   std::printf("%s\n", method.name.c_str());
   return run_command(run, interrupted);

@@ -42,8 +42,10 @@ void read_truth(const ExplainCommand& command, const explain::Run& run,
         request.truth[model->obj_id].push_back(read_pose(command.truth, command.truth_unit));
   }
   if (command.dataset.empty()) return;
-  const layouts::GroundTruth truth = as_arguments(
-      [&] { return layouts::read_ground_truth(command.dataset, run.inputs.split, "none"); });
+  const std::string split = run.inputs.manifest().split;
+  const layouts::GroundTruth truth = as_arguments([&] {
+    return layouts::read_ground_truth(command.dataset, split.empty() ? "test" : split, "none");
+  });
   const SceneFile file = explain::scene_file(run, frame);
   for (const layouts::TrueInstance& one : truth.instances)
     if (one.scene_id == file.scene_id && one.im_id == file.im_id)
@@ -60,7 +62,7 @@ std::string only_scene(const ExplainCommand& command, const explain::Run& run) {
 }  // namespace
 
 int explain_command(const ExplainCommand& command) {
-  const explain::Run run = explain::open_run(command.out, command.models, command.dataset);
+  const explain::Run run = explain::open_run(command.out, command.models);
   const std::string scene = only_scene(command, run);
   explain::Request request;
   request.object = command.object;

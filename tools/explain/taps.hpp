@@ -11,7 +11,8 @@
 #include "nodes/poses/segment_params.hpp"
 #include "pipelines/configuration.hpp"
 #include "tools/ablation/replay.hpp"
-#include "tools/explain/run_inputs.hpp"
+#include "tools/explain/run_frames.hpp"
+#include "tools/manifest/run_inputs.hpp"
 
 namespace posevote::explain {
 
@@ -27,13 +28,12 @@ struct Run {
   const poses::SegmentParams& segmentation() const;  ///< its parameters
 };
 
-/// `models`, `dataset`: take the place of what the run recorded, unless empty. Throws
+/// `models`: take the place of those that the run recorded, unless empty. Throws
 /// std::invalid_argument that names what is missing: a folder without a run, models that are gone or
 /// changed, a pipeline that does not vote.
-Run open_run(const std::filesystem::path& out, const std::vector<std::string>& models = {},
-             const std::string& dataset = "");
+Run open_run(const std::filesystem::path& out, const std::vector<std::string>& models = {});
 
-/// The scan as it was read then, with its camera.
+/// The scan as it was read then, with its camera. Throws std::invalid_argument where it is gone.
 SceneFile scene_file(const Run& run, const FrameOfRun& frame);
 
 /// The stages of one scan. Keeps a reference to the run.

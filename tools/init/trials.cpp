@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "nodes/formats/results_writer.hpp"
+#include "nodes/formats/results_files.hpp"
 #include "pipelines/configuration.hpp"
 #include "pipelines/library.hpp"
 
@@ -41,7 +41,7 @@ Trial Trials::run(const SceneFile& scan, const Settings& settings) {
 
 Trial Trials::run(const SceneFile& scan, const fs::path& config, const fs::path& picture) {
   const fs::path folder = picture.parent_path() / ".first";
-  formats::begin_results(folder, false);  // which the pipeline's writers ask for
+  formats::begin_results(folder);  // which the pipeline's writers ask for
   Trial trial = run_with(scan, config.string(), {"write_picture.every=1"}, folder);
   const fs::path made = folder / "pictures" / (std::string(kName) + ".png");
   if (fs::exists(made)) fs::rename(made, picture);

@@ -4,9 +4,16 @@
 #include "graph/schema.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
+#include "tools/stream/memory.hpp"
+#include "tools/stream/run_stream.hpp"
 
 namespace posevote {
 namespace {
+
+struct Options {
+  RunCommand run;
+  StreamOptions stream;
+};
 
 /// Units of the files, and where the sensor stood.
 void add_frames(CLI::App& app, RunCommand& command) {
@@ -36,7 +43,32 @@ void add_format(CLI::App& app, RunCommand& command) {
       ->type_name("json,csv,bop");
 }
 
-void add_options(CLI::App& app, RunCommand& command) {
+/// How frames come, and how many are held.
+void add_stream(CLI::App& app, RunCommand& command, StreamOptions& options) {
+  app.add_option_function<std::uint64_t>(
+         "--memory",
+         [&command, &options](std::uint64_t bytes) {
+           options.memory = bytes;
+           command.set.push_back("load_scene.max_points=" +
+                                 std::to_string(stream::most_points(bytes)));
+         },
+         "What frames in flight may take (2GB, 500MB): fewer are then, and a scan that would take "
+         "more by itself fails. Default: half of the machine's")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
+  CLI::Option* follow = app.add_flag(
+      "--follow", options.follow,
+      "Go on with each scan that is written into the folder of --scenes, until Ctrl-C, "
+      "SIGTERM, or a file `stop` in it");
+  app.add_flag("--real-time", options.real_time,
+               "With --follow: of the scans that wait take the newest, and leave out the others")
+      ->needs(follow);
+  for (const char* other : {"--resume", "--shard", "--dataset"})
+    follow->excludes(app.get_option(other));
+}
+
+void add_options(CLI::App& app, Options& options) {
+  RunCommand& command = options.run;
   app.footer(
       "Examples:\n  posevote run --models part.stl --scenes scans/ --out out/today\n"
       "  posevote run bop --dataset DIR\n\n"
@@ -84,6 +116,7 @@ void add_options(CLI::App& app, RunCommand& command) {
       ->excludes(resume);
   app.add_option("--shard", command.shard, "Only every N-th scan, from the I-th on")
       ->type_name("I/N");
+  add_stream(app, command, options.stream);
   app.add_option("--on-error", command.on_error, "After a model or a frame that fails")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
@@ -94,9 +127,10 @@ void add_options(CLI::App& app, RunCommand& command) {
       ->excludes(quiet);
 }
 
-const auto registered = register_command<RunCommand>(
-    "run", "Find the models in every scan", add_options, [](const RunCommand& command) {
-      return with_threads(command.threads, [&] { return run_command(command, end_in_order()); });
+const auto registered = register_command<Options>(
+    "run", "Find the models in every scan", add_options, [](const Options& options) {
+      return with_threads(options.run.threads,
+                          [&] { return run_command(options.run, options.stream, end_in_order()); });
     });
 
 }  // namespace

@@ -20,10 +20,12 @@ std::vector<std::string> node_names(const graph::Plan& plan) {
 }
 
 /// "0 found" alone explains nothing.
-std::string nearest_text(const Detection& best) {
+std::string nearest_text(const Detection& best, const std::string& out, const std::string& scan) {
   const auto worst = std::max_element(best.against.begin(), best.against.end());
   return "    the best candidate, " + printable(best.model) + ": " + best.why +
-         "; most against it: " + kClueNames[std::size_t(worst - best.against.begin())] + "\n";
+         "; most against it: " + kClueNames[std::size_t(worst - best.against.begin())] +
+         "\n    why: posevote explain " + quote_for_shell(printable(out)) + " --scene " +
+         quote_for_shell(printable(scan)) + "\n";
 }
 
 std::string figures_text(const graph::Figures& figures) {
@@ -48,7 +50,8 @@ FrameReport::FrameReport(const RunCommand& command, const graph::Plan& plan, std
     : command_(command),
       count_(count),
       trace_(node_names(plan)),
-      progress_({"frames", count, &activity, !command.quiet, &interrupted}) {
+      progress_(
+          {count > 0 ? "frames" : "following", count, &activity, !command.quiet, &interrupted}) {
   trace_.write_to(std::filesystem::path(command.out) / "trace.json");
 }
 
@@ -63,11 +66,13 @@ void FrameReport::add(const graph::FrameResult<Detections>& result) {
                   result.failure->what);
   } else {
     found_ += result.result->items.size();
-    if (command_.verbose || (command_.lines && !command_.quiet && count_ <= kFewFrames))
+    if (command_.verbose ||
+        (command_.lines && !command_.quiet && 0 < count_ && count_ <= kFewFrames))
       say(result);
   }
   progress_.advance();
-  progress_.note(std::to_string(found_) + " found, " + std::to_string(failed_) + " failed");
+  progress_.note((count_ > 0 ? "" : std::to_string(reported_) + " frames, ") +
+                 std::to_string(found_) + " found, " + std::to_string(failed_) + " failed");
 }
 
 void FrameReport::finish() {
@@ -77,13 +82,14 @@ void FrameReport::finish() {
 
 void FrameReport::say(const graph::FrameResult<Detections>& result) const {
   const Detections& detections = *result.result;
-  std::string text = "[" + std::to_string(reported_) + "/" + std::to_string(count_) + "] " +
+  std::string text = "[" + std::to_string(reported_) +
+                     (count_ > 0 ? "/" + std::to_string(count_) : "") + "] " +
                      printable(result.context.file.filename().string()) + ": " +
                      std::to_string(detections.items.size()) +
                      format(" found (%.2f s)\n", graph::cost(result.spans));
   for (const Detection& item : detections.items) text += detection_text(item);
   if (detections.items.empty() && !detections.rejected.empty())
-    text += nearest_text(detections.rejected.front());
+    text += nearest_text(detections.rejected.front(), command_.out, result.context.name);
   if (command_.verbose) text += figures_text(result.figures);
   std::cout << text << std::flush;
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kFewFrames = 20;
 /// what was measured of it. Used by one thread at a time.
 class FrameReport {
  public:
-  /// `count`: frames to come. `activity` and `interrupted` of the run.
+  /// `count`: frames to come; 0 where nobody knows. `activity` and `interrupted` of the run.
   FrameReport(const RunCommand& command, const graph::Plan& plan, std::size_t count,
               const graph::Activity& activity, const std::atomic<bool>& interrupted);
 

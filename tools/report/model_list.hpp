@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "tools/run_record.hpp"
+#include "tools/manifest/manifest.hpp"
 
 namespace posevote::page {
 

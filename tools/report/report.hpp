@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/run_inputs.hpp"
+#include "tools/report/shown_run.hpp"
 
 namespace posevote {
 

@@ -99,7 +99,7 @@ Json to_json(const FailedFrame& failure) {
           {"rejected", Json::array()}};
 }
 
-Json to_json(const std::vector<layouts::TrueInstance>& truths, const RunInputs& inputs,
+Json to_json(const std::vector<layouts::TrueInstance>& truths, const ShownRun& inputs,
              ModelList& models) {
   Json list = Json::array();
   for (const layouts::TrueInstance& truth : truths) {
@@ -118,30 +118,38 @@ struct Shown {
   ScanName scan;
 };
 
-std::vector<Shown> list_frames(const RunResults& run, const RunInputs& inputs, const RunView& view,
+/// Results may say anything; 0 where it is no number.
+template <class Frame>
+std::size_t frame_number(const Frame& frame) {
+  return frame.number >= 0 && frame.number < 1e15 ? static_cast<std::size_t>(frame.number) : 0;
+}
+
+std::vector<Shown> list_frames(const RunResults& run, const ShownRun& inputs, const RunView& view,
                                ModelList& models) {
   std::vector<Shown> frames;
   for (const AnsweredFrame& frame : run.frames)
     if (is_wanted(frame.name, view))
-      frames.push_back({to_json(frame, models), {frame.file, frame.scene_id, frame.im_id}});
+      frames.push_back(
+          {to_json(frame, models), {frame_number(frame), frame.file, frame.scene_id, frame.im_id}});
   for (const FailedFrame& failure : run.failures)
     if (is_wanted(name_of(failure), view))
-      frames.push_back({to_json(failure), {failure.file, 0, static_cast<int>(failure.number)}});
-  for (auto& [json, scan] : frames)
-    json["truth"] = to_json(inputs.truths(scan.file, scan.scene_id, scan.im_id), inputs, models);
+      frames.push_back(
+          {to_json(failure),
+           {frame_number(failure), failure.file, 0, static_cast<int>(failure.number)}});
+  for (auto& [json, scan] : frames) json["truth"] = to_json(inputs.truths(scan), inputs, models);
   return frames;
 }
 
-std::map<int, std::vector<Eigen::Isometry3d>> true_poses(const RunInputs& inputs,
+std::map<int, std::vector<Eigen::Isometry3d>> true_poses(const ShownRun& inputs,
                                                          const ScanName& scan) {
   std::map<int, std::vector<Eigen::Isometry3d>> poses;
-  for (const layouts::TrueInstance& truth : inputs.truths(scan.file, scan.scene_id, scan.im_id))
+  for (const layouts::TrueInstance& truth : inputs.truths(scan))
     poses[truth.obj_id].push_back(truth.T_scene_model);
   return poses;
 }
 
 /// Why each object was found or not, by object and instance.
-void explain_scans(const std::filesystem::path& folder, const RunInputs& inputs, ModelList& models,
+void explain_scans(const std::filesystem::path& folder, const ShownRun& inputs, ModelList& models,
                    std::vector<Shown>& frames) {
   const explain::Run run = explain::open_run(folder);
   for (auto& [json, scan] : frames) {
@@ -157,7 +165,7 @@ void explain_scans(const std::filesystem::path& folder, const RunInputs& inputs,
 }
 
 /// The packed bytes of each frame, beside its JSON.
-std::string show_scans(std::vector<Shown>& frames, const RunInputs& inputs, const RunView& view,
+std::string show_scans(std::vector<Shown>& frames, const ShownRun& inputs, const RunView& view,
                        const VotesWanted* votes, const std::string& id) {
   std::vector<std::string> blobs(frames.size());
   graph::parallel_for(frames.size(), 1, [&](std::size_t i) {
@@ -178,8 +186,8 @@ std::size_t count_scans(const RunResults& run, const RunView& view) {
   return count;
 }
 
-std::string run_markup(const std::filesystem::path& folder, const RunResults& run,
-                       RunInputs& inputs, const RunView& view, const std::string& id) {
+std::string run_markup(const std::filesystem::path& folder, const RunResults& run, ShownRun& inputs,
+                       const RunView& view, const std::string& id) {
   ModelList models(inputs.models(), run.left_out);
   std::vector<Shown> frames = list_frames(run, inputs, view, models);
   if (view.explain) explain_scans(folder, inputs, models, frames);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/run_inputs.hpp"
 #include "tools/report/run_results.hpp"
+#include "tools/report/shown_run.hpp"
 
 namespace posevote::page {
 
@@ -27,8 +27,8 @@ std::size_t count_scans(const RunResults& run, const RunView& view);
 /// Markup that the viewer fills, of the run in `folder`. `id`: unique on the page. Throws
 /// std::invalid_argument where votes or explanations are asked for of an object that there is not,
 /// or the models are gone.
-std::string run_markup(const std::filesystem::path& folder, const RunResults& run,
-                       RunInputs& inputs, const RunView& view, const std::string& id);
+std::string run_markup(const std::filesystem::path& folder, const RunResults& run, ShownRun& inputs,
+                       const RunView& view, const std::string& id);
 
 /// JSON that can stand in a <script>: ASCII, and nothing in it that could end the element.
 std::string script_json(const nlohmann::ordered_json& json);

@@ -69,7 +69,7 @@ std::string histogram(const std::vector<double>& confidences) {
 }
 
 /// How often each model was found; also those that never were.
-std::string models(const RunResults& run, const page::RunInputs& inputs) {
+std::string models(const RunResults& run, const page::ShownRun& inputs) {
   struct Model {
     std::vector<double> confidences;
     std::size_t frames = 0;
@@ -169,16 +169,16 @@ std::string parameters(const fs::path& folder) {
 }
 
 /// What was typed; more than once where a run was resumed.
-std::string command_lines(const std::vector<RunRecord>& records) {
-  if (records.empty()) return "";
+std::string command_lines(const std::vector<RunStart>& starts) {
+  if (starts.empty()) return "";
   std::string lines;
-  for (const RunRecord& record : records)
-    lines += "cd " + shell_line({record.folder}) + "\n" + shell_line(record.command) + "\n";
+  for (const RunStart& start : starts)
+    lines += "cd " + shell_line({start.folder}) + "\n" + shell_line(start.command) + "\n";
   return html::heading("Command line") + "<pre class=\"command\">" + escape_markup(lines) +
          "</pre>\n";
 }
 
-std::string notes(const page::RunInputs& inputs) {
+std::string notes(const page::ShownRun& inputs) {
   std::string text;
   for (const std::string& note : inputs.notes()) text += html::paragraph(note);
   return text;
@@ -190,11 +190,11 @@ html::Section run_section(const fs::path& folder, const std::string& where,
                           const page::TruthSource& truth, const page::RunView& view,
                           const std::string& id) {
   const RunResults run = read_run(folder);
-  page::RunInputs inputs(folder, truth);
+  page::ShownRun inputs(folder, truth);
   const std::string viewer = page::run_markup(folder, run, inputs, view, id);
   return {where.empty() ? "Run" : where, summary(run) + left_out(run) + notes(inputs) + viewer +
                                              models(run, inputs) + stages(run) + failures(run) +
-                                             command_lines(inputs.records()) + parameters(folder)};
+                                             command_lines(inputs.starts()) + parameters(folder)};
 }
 
 }  // namespace posevote

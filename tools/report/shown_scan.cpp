@@ -71,7 +71,7 @@ std::string show_points(const Scan& scan, std::size_t most, const std::string& i
   return blob(id, packed.bytes);
 }
 
-std::string show_votes(const SceneFile& scene, const RunInputs& inputs, const VotesWanted& votes,
+std::string show_votes(const SceneFile& scene, const ShownRun& inputs, const VotesWanted& votes,
                        std::size_t most, const std::string& id, Json& json) {
   const ShownVotes shown =
       votes_of(inputs.configuration(), votes.constants, scene, votes.obj_id, most);
@@ -93,7 +93,7 @@ Json to_json(const Packed& packed, const std::string& element) {
           {"step", packed.step}};
 }
 
-std::string show_scan(const ScanName& scan, const RunInputs& inputs, const VotesWanted* votes,
+std::string show_scan(const ScanName& scan, const ShownRun& inputs, const VotesWanted* votes,
                       std::size_t points, const std::string& id, Json& json) {
   if (points == 0) {
     json["note"] = "The page has no room for this scan; --size takes more.";
@@ -101,15 +101,13 @@ std::string show_scan(const ScanName& scan, const RunInputs& inputs, const Votes
   }
   std::string blobs;
   try {
-    blobs = show_points(inputs.load(scan.file, scan.scene_id, scan.im_id),
-                        votes ? points / 2 : points, id, json);
+    blobs = show_points(inputs.load(scan), votes ? points / 2 : points, id, json);
   } catch (const std::exception& error) {
     json["note"] = std::string("Not shown: ") + error.what();
     return "";
   }
   if (votes) try {
-      blobs += show_votes(inputs.locate(scan.file, scan.scene_id, scan.im_id), inputs, *votes,
-                          points / 2, id + "-votes", json);
+      blobs += show_votes(inputs.locate(scan), inputs, *votes, points / 2, id + "-votes", json);
     } catch (const std::exception& error) {
       json["note"] = std::string("No votes: ") + error.what();
     }

@@ -6,15 +6,9 @@
 #include <string>
 
 #include "tools/report/pack.hpp"
-#include "tools/report/run_inputs.hpp"
+#include "tools/report/shown_run.hpp"
 
 namespace posevote::page {
-
-/// Which one, as the run's results have it.
-struct ScanName {
-  std::string file;
-  int scene_id = 0, im_id = 0;
-};
 
 /// Whose votes to show, and what the run's nodes need to cast them again.
 struct VotesWanted {
@@ -25,7 +19,7 @@ struct VotesWanted {
 /// Adds to `json` how to draw the scan and returns its bytes in elements named after `id`. Of a scan
 /// that is gone or cannot be read, `json` says so, and nothing is thrown. `points`: at most; with
 /// votes half of them are votes.
-std::string show_scan(const ScanName& scan, const RunInputs& inputs, const VotesWanted* votes,
+std::string show_scan(const ScanName& scan, const ShownRun& inputs, const VotesWanted* votes,
                       std::size_t points, const std::string& id, nlohmann::ordered_json& json);
 
 /// What is packed in the element of that name.

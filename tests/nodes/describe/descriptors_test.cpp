@@ -190,7 +190,7 @@ TEST_CASE("what makes no sense is refused by all descriptors", "[describe]") {
     Cloud bare = body;
     bare.normals.resize(0, 3);
     CHECK_THROWS_WITH(describe(bare, {{0}}, kResolution), Catch::Contains("0 normals"));
-    CHECK_THROWS_WITH(describe(body, {}, kResolution), Catch::Contains("no feature points"));
+    CHECK(describe(body, {}, kResolution).descriptors.rows() == 0);  // nothing is left to search
     CHECK_THROWS_WITH(describe(body, {{999999}}, kResolution), Catch::Contains("999999"));
     CHECK_THROWS_WITH(describe(body, {{0}}, 0), Catch::Contains("resolution"));
     CHECK(describe(body, {{0, 1}}, 1e-6F).descriptors.rows() == 0);  // too few neighbours

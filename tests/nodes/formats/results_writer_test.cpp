@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/formats/results_writer.hpp"
-
 #include <sys/resource.h>
 
 #include <catch2/catch.hpp>
@@ -8,6 +6,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "nodes/formats/results_files.hpp"
 #include "nodes/formats/results_tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -72,7 +71,7 @@ TEST_CASE("a row of results.csv is BOP's: R row by row, t in mm", "[write]") {
 
 TEST_CASE("the files are complete after every frame", "[write]") {
   const TemporaryFolder folder;
-  formats::begin_results(folder / "out", false);
+  formats::begin_results(folder / "out");
   formats::ResultsWriter writer(folder / "out");
   CHECK(json(folder / "out/results.json")["frames"].empty());
   CHECK(json(folder / "out/failures.json").empty());
@@ -97,7 +96,7 @@ TEST_CASE(
     "a pose is written as a matrix, a quaternion and a translation; what was rejected with why",
     "[write]") {
   const TemporaryFolder folder;
-  formats::begin_results(folder / "out", false);
+  formats::begin_results(folder / "out");
   Detections chef = one_chef();
   Detection& item = chef.items[0];
   item.T_scene_model = Eigen::Translation3d(1, 2, 3) *
@@ -119,7 +118,7 @@ TEST_CASE(
 TEST_CASE("a covariance is written row by row, or null, and the time of the search beside it",
           "[write]") {
   const TemporaryFolder folder;
-  formats::begin_results(folder / "out", false);
+  formats::begin_results(folder / "out");
   Detections chef = one_chef();
   chef.items.push_back(chef.items[0]);
   Detection& item = chef.items[0];
@@ -138,7 +137,7 @@ TEST_CASE("a covariance is written row by row, or null, and the time of the sear
 
 TEST_CASE("detections.csv names scan and model, in metres, quoted as RFC 4180 asks", "[write]") {
   const TemporaryFolder folder;
-  formats::begin_results(folder / "out", false);
+  formats::begin_results(folder / "out");
   Detections chef = one_chef();
   chef.items[0].model = "chef, \"old\"";
   chef.items[0].rmse = 0.00125;
@@ -158,36 +157,9 @@ TEST_CASE("detections.csv names scan and model, in metres, quoted as RFC 4180 as
   CHECK(rms == 0.00125);
 }
 
-TEST_CASE("only the formats that are asked for are written; without json none is resumed",
-          "[write]") {
-  const TemporaryFolder folder;
-  const std::filesystem::path out = folder / "out";
-  const auto begin = [&](bool resume, const std::vector<std::string>& formats) {
-    return formats::begin_results(out, resume, {}, {}, formats);
-  };
-  begin(false, {"csv"});
-  formats::ResultsWriter(out, {"csv"}).write(frame(0), one_chef(), {});
-  CHECK(read_text(out / "detections.csv").find("chef") != std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(out / "results.json"));
-  CHECK_FALSE(std::filesystem::exists(out / "results.csv"));
-  CHECK(json(out / "failures.json").empty());
-  CHECK_THROWS_AS(begin(false, {"csv"}), std::invalid_argument);  // holds another run
-  CHECK_THROWS_WITH(begin(true, {"csv", "bop"}), Catch::Contains("without results.json"));
-  CHECK(read_text(out / "detections.csv").find("chef") != std::string::npos);  // untouched
-  // With json, any table is made anew from it.
-  std::filesystem::remove_all(out);
-  begin(false, {"json", "csv"});
-  formats::ResultsWriter(out, {"json", "csv"}).write(frame(0), one_chef(), {});
-  const std::string table = read_text(out / "detections.csv");
-  std::ofstream(out / "detections.csv", std::ios::app) << "half a ro";
-  CHECK(begin(true, {"json", "csv"}) == std::set<std::size_t>{0});
-  CHECK(read_text(out / "detections.csv") == table);
-  CHECK_FALSE(std::filesystem::exists(out / "results.csv"));
-}
-
 TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[write]") {
   const TemporaryFolder folder;
-  formats::begin_results(folder / "out", false);
+  formats::begin_results(folder / "out");
   Detections can = one_chef();
   Symmetries& symmetries = can.items[0].symmetries;
   symmetries.fixed_point = {0.1F, 0, 0.2F};
@@ -201,76 +173,6 @@ TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[writ
     CHECK(listed["discrete"][0][i] == Approx(about_x[i]).margin(1e-7));
   CHECK(listed["continuous"][0]["axis"] == nlohmann::json::parse("[0.0, 0.0, 1.0]"));
   CHECK(listed["continuous"][0]["offset"][2] == Approx(0.2));
-}
-
-TEST_CASE("another run's folder is not written over", "[write]") {
-  const TemporaryFolder folder;
-  CHECK(formats::begin_results(folder / "out", false).empty());
-  CHECK_THROWS_AS(formats::begin_results(folder / "out", false), std::invalid_argument);
-}
-
-TEST_CASE("resuming keeps answered frames and drops what a killed run left half written",
-          "[write]") {
-  const TemporaryFolder folder;
-  {
-    formats::begin_results(folder / "out", false);
-    formats::ResultsWriter writer(folder / "out");
-    writer.write(frame(0), one_chef(), {});
-    writer.write(frame(1), {}, {});
-    writer.write(formats::FailureReport{2, "b.ply", "load_scene", "empty"});
-  }
-  std::ofstream(folder / "out/results.csv", std::ios::app) << bop_rows(4) << "0,5";
-  std::ofstream(folder / "out/results.json", std::ios::app) << "{\"frame\": 5, \"fi";
-  const std::filesystem::path scan = frame(0).file.path;
-  CHECK(formats::begin_results(folder / "out", true, {{0, scan}, {1, scan}, {2, "b.ply"}}) ==
-        std::set<std::size_t>{0, 1});
-  CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + bop_rows(0));
-  formats::ResultsWriter(folder / "out").write(frame(2), one_chef(), {});
-  CHECK(json(folder / "out/results.json")["frames"].size() == 3);
-  CHECK(json(folder / "out/failures.json").empty());
-}
-
-TEST_CASE("resuming makes lost rows anew, and refuses other scans before it touches a file",
-          "[write]") {
-  const TemporaryFolder folder;
-  {
-    formats::begin_results(folder / "out", false);
-    formats::ResultsWriter writer(folder / "out");
-    writer.write(frame(0), one_chef(), {});
-    writer.write(formats::FailureReport{1, "b.ply", "load_scene", "empty"});
-  }
-  std::filesystem::remove(folder / "out/results.csv");
-  CHECK_THROWS_WITH(
-      formats::begin_results(folder / "out", true, {{0, "elsewhere/other.ply"}}),
-      Catch::Contains("results.json: frame 0 is ") && Catch::Contains("now it is other.ply"));
-  CHECK(json(folder / "out/failures.json").size() == 1);
-  CHECK(!std::filesystem::exists(folder / "out/results.csv"));
-  formats::begin_results(folder / "out", true,
-                         {{0, "elsewhere" / frame(0).file.path.filename()}, {1, "b.ply"}});
-  CHECK(read_text(folder / "out/results.csv") ==
-        "scene_id,im_id,obj_id,score,R,t,time\n" + bop_rows(0));
-}
-
-TEST_CASE("resuming one shard keeps the failures of the others", "[write]") {
-  const TemporaryFolder folder;
-  formats::begin_results(folder / "out", false);
-  formats::ResultsWriter(folder / "out").write({1, "b.ply", "load_scene", "empty"});
-  formats::begin_results(folder / "out", true, {{0, "a.ply"}});
-  formats::ResultsWriter(folder / "out").write({0, "a.ply", "load_scene", "empty"});
-  const nlohmann::json failures = json(folder / "out/failures.json");
-  REQUIRE(failures.size() == 2);
-  CHECK(failures[0]["frame"] == 1);
-  formats::begin_results(folder / "out", true, {{0, "a.ply"}, {1, "b.ply"}});
-  CHECK(json(folder / "out/failures.json").empty());
-}
-
-TEST_CASE("results that no run wrote are named, without the JSON library's words", "[write]") {
-  const TemporaryFolder folder;
-  folder.write("results.json", "{\"frame\": \"one\", \"im_id\": 1}\n");
-  CHECK_THROWS_WITH(formats::begin_results(folder.path(), true),
-                    Catch::Contains("results.json: is not what a run wrote: ") &&
-                        !Catch::Contains("json.exception"));
 }
 
 TEST_CASE("a full disk keeps what is written and names the file", "[write]") {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/library/content_hash.hpp"
+
 #include <catch2/catch.hpp>
 
-#include "nodes/library/library_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace posevote;

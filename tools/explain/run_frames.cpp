@@ -1,43 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explain/run_inputs.hpp"
+#include "tools/explain/run_frames.hpp"
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "graph/schema.hpp"
-#include "nodes/formats/file_bytes.hpp"
 #include "nodes/formats/results_writer.hpp"
-#include "tools/run_record.hpp"
 
 namespace posevote::explain {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// As seen from here, of a path that was typed in `folder`.
-std::string from(const std::string& folder, const std::string& path) {
-  return path.empty() ? "" : (fs::path(folder) / path).lexically_normal().string();
-}
-
-/// "# posevote run --seed 7; models ..." begins effective.yaml.
-std::uint64_t read_seed(const fs::path& file) {
-  const std::string mark = "--seed ";
-  const formats::FileBytes yaml = formats::read_file(file);
-  const std::string first(yaml.view().substr(0, yaml.view().find('\n')));
-  const std::size_t at = first.find(mark);
-  return at == std::string::npos ? 0 : std::strtoull(first.c_str() + at + mark.size(), nullptr, 10);
-}
-
-/// The value of an option among the words that were typed.
-std::string option_of(const std::vector<std::string>& words, const std::string& name) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == name && i + 1 < words.size()) return words[i + 1];
-    if (words[i].starts_with(name + "=")) return words[i].substr(name.size() + 1);
-  }
-  return "";
-}
 
 template <class T>
 T value_or(const Json& json, const char* key, T otherwise) {
@@ -80,26 +54,7 @@ const FrameOfRun* exactly(const std::vector<FrameOfRun>& frames, const std::stri
 
 }  // namespace
 
-RunInputs read_inputs(const fs::path& out) {
-  RunInputs inputs;
-  inputs.seed = read_seed(out / "effective.yaml");
-  const std::vector<RunRecord> records = read_run_records(out);
-  if (records.empty()) return inputs;
-  const RunRecord& last = records.back();
-  inputs.folder = last.folder;
-  inputs.dataset = from(last.folder, last.dataset);
-  if (!last.split.empty()) inputs.split = last.split;
-  inputs.library = from(last.folder, last.library);
-  inputs.cache = from(last.folder, option_of(last.command, "--cache"));
-  for (const SoughtModel& model : last.models)
-    if (!model.file.empty()) inputs.models.push_back(from(last.folder, model.file));
-  return inputs;
-}
-
 std::vector<FrameOfRun> read_run_frames(const fs::path& out) {
-  if (!fs::exists(out / "effective.yaml"))
-    throw std::invalid_argument((out / "effective.yaml").string() +
-                                ": not there; expected the --out folder of a `posevote run`");
   std::vector<FrameOfRun> frames;
   try {
     add_answered(out, frames);

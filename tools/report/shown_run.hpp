@@ -11,8 +11,8 @@
 
 #include "nodes/layouts/ground_truth.hpp"
 #include "pipelines/configuration.hpp"
+#include "tools/manifest/run_inputs.hpp"
 #include "tools/report/run_results.hpp"
-#include "tools/run_record.hpp"
 
 namespace posevote::page {
 
@@ -21,18 +21,25 @@ struct TruthSource {
   std::string dataset, split = "test";
 };
 
-class RunInputs {
+/// Which scan, as the run's results have it.
+struct ScanName {
+  std::size_t frame = 0;
+  std::string file;
+  int scene_id = 0, im_id = 0;
+};
+
+class ShownRun {
  public:
   /// What cannot be found again is told in notes().
-  RunInputs(const std::filesystem::path& folder, const TruthSource& truth);
+  ShownRun(const std::filesystem::path& folder, const TruthSource& truth);
 
   /// In the frame and by the parameters of the run. Throws std::runtime_error naming the file and
   /// the cause where it is gone or cannot be read.
-  Scan load(const std::string& file, int scene_id, int im_id) const;
+  Scan load(const ScanName& scan) const;
   /// The same, unread.
-  SceneFile locate(const std::string& file, int scene_id, int im_id) const;
+  SceneFile locate(const ScanName& scan) const;
   /// Poses in that frame; none where they are not known.
-  std::vector<layouts::TrueInstance> truths(const std::string& file, int scene_id, int im_id) const;
+  std::vector<layouts::TrueInstance> truths(const ScanName& scan) const;
   bool has_truth() const { return truth_.has_value(); }
 
   /// All that were sought, in ascending order of obj_id.
@@ -45,19 +52,17 @@ class RunInputs {
   /// To run its nodes again. Throws std::invalid_argument where effective.yaml cannot be used, or a
   /// model or library is gone.
   const Configuration& configuration() const;
-  std::shared_ptr<const ModelLibrary> library() const;
+  std::shared_ptr<const ModelLibrary> library() const { return inputs_.library(configuration()); }
 
-  const std::vector<RunRecord>& records() const { return records_; }
+  const std::vector<RunStart>& starts() const { return inputs_.manifest().starts; }
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  std::filesystem::path find(const std::string& file) const;
-  void read_configuration(const std::filesystem::path& folder);
+  void read_configuration();
   void read_dataset(const TruthSource& source);
   void read_truth(const TruthSource& source);
 
-  std::vector<RunRecord> records_;
-  RunRecord record_;  ///< the last of them
+  RunInputs inputs_;
   std::vector<SoughtModel> models_;
   std::optional<Configuration> configuration_;
   std::string no_configuration_;                       ///< why not

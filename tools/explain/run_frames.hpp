@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run was told beside its config, from its folder: which models, which scans, which seed.
+// The frames of a run, answered or failed, and which of them a user means.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace posevote::explain {
-
-/// Paths from wherever the program stands.
-struct RunInputs {
-  std::vector<std::string> models;
-  std::string dataset, split = "test";
-  std::string library, cache;
-  std::string folder;  ///< where the run was started: the scans' paths are from there
-  std::uint64_t seed = 0;
-};
-
-/// Of its last start; nothing but the seed where run.json is not there, of an older posevote.
-RunInputs read_inputs(const std::filesystem::path& out);
 
 /// The frame of a run by its name, file, number, or SCENE/IMAGE of a data set.
 struct FrameOfRun {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/scan_hash.hpp"
+
+#include <vector>
+
+#include "nodes/formats/sensor_pose.hpp"
+#include "nodes/library/content_hash.hpp"
+
+namespace posevote::formats {
+
+namespace fs = std::filesystem;
+
+std::string hash_scan(const SceneFile& scan) {
+  if (scan.points || scan.depth) return "";
+  std::vector<fs::path> files{scan.path};
+  const fs::path pose = pose_file_of(scan.path);
+  std::error_code is_loop;
+  if (fs::exists(fs::symlink_status(pose, is_loop))) files.push_back(pose);
+  return library::hash_files(files, "");
+}
+
+}  // namespace posevote::formats

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "nodes/data/files.hpp"
+
+namespace posevote::formats {
+
+/// library::hash_files of a scan's file, and of the one beside it that says where the sensor stood.
+/// "" where the scan is in memory. Throws std::runtime_error naming a file that cannot be read.
+std::string hash_scan(const SceneFile& scan);
+
+}  // namespace posevote::formats

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/formats/scan_hash.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+using namespace posevote;
+using posevote::test::TemporaryFolder;
+
+TEST_CASE("a scan is told by its bytes and by the pose beside it, not by its name", "[formats]") {
+  const TemporaryFolder folder;
+  const auto hash = [](const std::filesystem::path& file) {
+    return formats::hash_scan({file, 0, 0, {}});
+  };
+  const std::string a = hash(folder.write("a.ply", "points"));
+  CHECK(a == hash(folder.write("b.ply", "points")));
+  CHECK(a != hash(folder.write("c.ply", "Points")));
+  folder.write("a.pose", "0 0 1");
+  const std::string posed = hash(folder / "a.ply");
+  CHECK(posed != a);
+  folder.write("a.pose", "0 0 2");
+  CHECK(posed != hash(folder / "a.ply"));
+  SceneFile in_memory{folder / "nowhere.ply", 0, 0, {}};
+  in_memory.depth = std::make_shared<const LoadedDepth>();
+  CHECK(formats::hash_scan(in_memory).empty());
+}
