@@ -57,6 +57,12 @@ Clues against(const Clues& clues, const ConfidenceTerms& terms) {
   return missing;
 }
 
+double confidence_of(const Candidate& candidate, const Terms& terms) {
+  double log_odds = log_odds_of(candidate.clues, terms.confidence);
+  if (candidate.color_clues) log_odds += log_odds_of(*candidate.color_clues, terms.color);
+  return probability_of(log_odds);
+}
+
 void believe(const Sought& sought, Candidate& candidate) {
   candidate.confidence = 0;
   if (!(candidate.quality > 0)) return;
@@ -67,13 +73,10 @@ void believe(const Sought& sought, Candidate& candidate) {
     candidate.consensus = consensus(*backing.votes_per_feature, sought.terms.score);
   }
   candidate.clues = clues_of(candidate.fit, backing, sought.terms.fit);
-  double log_odds = log_odds_of(candidate.clues, sought.terms.confidence);
-  if (candidate.colors) {
+  if (candidate.colors)
     candidate.color_clues =
         color_clues_of(*candidate.colors, sought.scan.usual_tint.tint(), sought.terms.color);
-    log_odds += log_odds_of(*candidate.color_clues, sought.terms.color);
-  }
-  candidate.confidence = probability_of(log_odds);
+  candidate.confidence = confidence_of(candidate, sought.terms);
 }
 
 }  // namespace posevote::poses

@@ -41,6 +41,9 @@ double probability_of(double log_odds);
 /// it speaks for the pose.
 Clues against(const Clues& clues, const ConfidenceTerms& terms);
 
+/// Of a candidate's clues.
+double confidence_of(const Candidate& candidate, const Terms& terms);
+
 /// Sets consensus, clues and confidence of a candidate.
 void believe(const Sought& sought, Candidate& candidate);
 

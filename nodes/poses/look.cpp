@@ -14,7 +14,7 @@ void recall_votes(const Sought& sought, const Candidate& before, Candidate& now)
   now.consensus = before.consensus;
   now.clues[kVotes] = before.clues[kVotes];
   now.clues[kLead] = before.clues[kLead];
-  now.confidence = confidence_of(now.clues, sought.terms.confidence);
+  now.confidence = confidence_of(now, sought.terms);
 }
 
 }  // namespace

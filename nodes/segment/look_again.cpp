@@ -53,12 +53,12 @@ std::vector<Look> look_at(const Sightings& before, const ModelLibrary& library,
   std::vector<Look> looks;
   for (const Sighting& one : before.items) {
     const Model& model = library.models.at(one.object)->at(scan.resolution);
-    looks.push_back({{.model = model,
-                      .scan = scan,
-                      .params = poses::instance_params(before.params, model, scan.resolution),
-                      .terms = before.params.terms,
-                      .model_grid = nullptr},  // it is for votes
-                     one});
+    poses::Sought sought{.model = model,
+                         .scan = scan,
+                         .params = poses::instance_params(before.params, model, scan.resolution),
+                         .terms = before.params.terms,
+                         .model_grid = nullptr};  // it is for votes
+    looks.push_back({std::move(sought), one});
   }
   graph::parallel_for(looks.size(), 1, [&](std::size_t i) {
     const Clock::time_point begin = Clock::now();
