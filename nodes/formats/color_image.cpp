@@ -61,6 +61,7 @@ ColorImage read_jpeg(std::string_view bytes) {
   int width = 0, height = 0, sampling = 0, space = 0;
   if (tjDecompressHeader3(jpeg.get(), data, bytes.size(), &width, &height, &sampling, &space) != 0)
     fail(jpeg, "damaged JPEG file: ");
+  if (width == 0 || height == 0) throw std::runtime_error("damaged JPEG file: has no header");
   ColorImage image =
       empty_image(static_cast<std::size_t>(width), static_cast<std::size_t>(height), bytes.size());
   if (tjDecompress2(jpeg.get(), data, bytes.size(), image.values.data(), width, 0, height, TJPF_RGB,

@@ -24,7 +24,7 @@ TEST_CASE("ADD-S takes any pose that looks alike, ADD the right one", "[evaluate
   const auto way_round = right_way_round(got);
   CHECK(way_round.at(0).found == 2);
   CHECK(way_round.at(0).right == 0);
-  CHECK_THAT(to_text(got, false), Contains("ADD where ADD-S is met      0.000   0 of 2"));
+  CHECK_THAT(to_text(got, false), Contains("ADD where ADD-S is met     0.000   0 of 2"));
   options.rules = "adds";
   CHECK(right_way_round(set.evaluate(row(1, 0.9, kFlip, "20 0 1000"), options)).empty());
 }

@@ -223,7 +223,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 10"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 11"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

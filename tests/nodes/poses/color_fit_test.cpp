@@ -20,7 +20,7 @@ namespace {
 /// Light at a place of the body: patches of several hues, other ones all around.
 Eigen::RowVector3f paint(const Eigen::Vector3f& place) {
   const auto wave = [&](float x, float y, float z) {
-    return 0.5F + 0.4F * std::sin(70 * (x * place.x() + y * place.y() + z * place.z()) + x);
+    return 0.5F + 0.4F * std::sin(140 * (x * place.x() + y * place.y() + z * place.z()) + x);
   };
   return {wave(1, 0.3F, 0), wave(0, 1, 0.7F), wave(0.4F, 0, 1)};
 }
