@@ -22,6 +22,9 @@ namespace fs = std::filesystem;
 using Fields = std::map<std::string, std::string, std::less<>>;
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+/// Names of topics become paths.
+constexpr std::string_view kInTopics =
+    "/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.~";
 constexpr std::uint32_t kMostHead = 1 << 20;  // a definition of a message stands in data
 enum Kind { kMessage = 2, kBagHead = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7 };
 
@@ -192,6 +195,9 @@ class Index {
     if (type == said.end()) fail_at(record.at, "a connection without a type");
     std::string topic = text(record, "topic");
     if (!topic.starts_with('/')) topic = '/' + topic;
+    if (fs::path(topic).lexically_normal().string() != topic || topic.back() == '/' ||
+        topic.find_first_not_of(kInTopics) != std::string::npos)
+      fail_at(record.at, "a topic of the name " + in_quotes(topic));
     connections_[number<std::uint32_t>(record, "conn")] = {topic, type->second};
   }
 

@@ -14,6 +14,8 @@ namespace posevote::formats {
 namespace {
 
 constexpr std::size_t kStep = 1 << 20;  ///< by which what is made grows [bytes]
+constexpr std::size_t kMost =
+    1 << 30;  ///< recorders begin a new chunk after less than 1 MB [bytes]
 
 /// Calls `step(to, room)`, which returns how much it made there: 0 where there is no more.
 template <class Step>
@@ -42,14 +44,13 @@ std::string inflate_lz4(std::string_view bytes, std::size_t size) {
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
       made, &LZ4F_freeDecompressionContext);
   return grow(size, [&](char* to, std::size_t room) {
-    std::size_t count = 0;
-    while (count == 0 && !bytes.empty()) {
-      std::size_t taken = bytes.size();
+    std::size_t count = 0, taken = 1;
+    while (count == 0 && taken > 0) {  // what it took before may be to come yet
+      taken = bytes.size();
       count = room;
       if (LZ4F_isError(LZ4F_decompress(context.get(), to, &count, bytes.data(), &taken, nullptr)))
         fail_inside();
       bytes.remove_prefix(taken);
-      if (taken == 0) break;
     }
     return count;
   });
@@ -78,6 +79,9 @@ std::string inflate_bz2(std::string_view bytes, std::size_t size) {
 }  // namespace
 
 std::string inflate(std::string_view bytes, const std::string& compression, std::size_t size) {
+  if (size > kMost)
+    throw std::runtime_error("a chunk claims " + std::to_string(size) + " bytes, expected " +
+                             std::to_string(kMost) + " at most");
   if (compression == "lz4") return inflate_lz4(bytes, size);
   if (compression == "bz2") return inflate_bz2(bytes, size);
   throw std::runtime_error("its chunks are compressed by " + in_quotes(compression) +

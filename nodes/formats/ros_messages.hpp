@@ -22,9 +22,7 @@ struct RosImage {
   std::string_view data;
 
   /// 16UC1 in mm or 32FC1 in m (REP 118).
-  bool is_depth() const {
-    return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
-  }
+  bool is_depth() const { return encoding == "16UC1" || encoding == "32FC1"; }
 };
 
 /// sensor_msgs/CameraInfo.

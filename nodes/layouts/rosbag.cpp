@@ -22,10 +22,13 @@ using formats::Bag;
 using formats::BagMessage;
 using formats::BagTopic;
 
+bool holds_images(const BagTopic& topic) {
+  return topic.type == "sensor_msgs/Image" && !topic.messages.empty();
+}
+
 bool holds_depth(const Bag& bag, const BagTopic& topic) {
-  if (topic.type != "sensor_msgs/Image" || topic.messages.empty()) return false;
-  const std::string message = bag.read(topic.messages.front());
-  return formats::read_ros_image(message).is_depth();
+  return holds_images(topic) &&
+         formats::read_ros_image(bag.read(topic.messages.front())).is_depth();
 }
 
 std::vector<std::string> depth_topics(const Bag& bag) {
@@ -35,11 +38,17 @@ std::vector<std::string> depth_topics(const Bag& bag) {
   return topics;
 }
 
-/// "/depth/image (sensor_msgs/Image), ..."
+/// "/rgb/image (sensor_msgs/Image 'rgb8'), ..."
 std::string list_topics(const Bag& bag) {
   std::string text;
-  for (const auto& [name, topic] : bag.topics())
-    text += (text.empty() ? "" : ", ") + name + " (" + topic.type + ")";
+  for (const auto& [name, topic] : bag.topics()) {
+    text += (text.empty() ? "" : ", ") + name + " (" + topic.type;
+    if (holds_images(topic)) {
+      const std::string message = bag.read(topic.messages.front());
+      text += " " + formats::in_quotes(formats::read_ros_image(message).encoding);
+    }
+    text += ")";
+  }
   return text.empty() ? "nothing" : text;
 }
 
@@ -130,17 +139,17 @@ std::vector<SceneFile> read_bag(const fs::path& path, const fs::path& file) {
   return frames;
 }
 
-const auto registered = register_recording(
-    {"ROS 1 bag", "a file .bag with depth images and their camera_info",
-     [](const fs::path& path) { return formats::container_of(path).extension() == ".bag"; },
-     [](const fs::path& path) {
-       const fs::path file = formats::container_of(path);
-       try {
-         return read_bag(path, file);
-       } catch (const std::runtime_error& error) {
-         fail(file, error.what());
-       }
-     }});
+const auto registered =
+    register_recording({"ROS 1 bag", "a file .bag with depth images and their camera_info",
+                        [](const fs::path& path) { return !formats::container_of(path).empty(); },
+                        [](const fs::path& path) {
+                          const fs::path file = formats::container_of(path);
+                          try {
+                            return read_bag(path, file);
+                          } catch (const std::runtime_error& error) {
+                            fail(file, error.what());
+                          }
+                        }});
 
 }  // namespace
 }  // namespace posevote::layouts
