@@ -24,7 +24,7 @@ std::string read_entry(const std::filesystem::path& path) {
   std::size_t number = 0;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (digits.empty() || read.ec != std::errc() || read.ptr != digits.data() + digits.size())
-    throw std::runtime_error("expected BAG/TOPIC/NUMBER, an image in a bag");
+    throw std::runtime_error("is a whole bag or topic, expected BAG/TOPIC/NUMBER, one image in it");
   const auto topic = bag->topics().find(entry.substr(0, slash));
   if (topic == bag->topics().end() || number >= topic->second.messages.size())
     throw std::runtime_error("no such message in the bag");

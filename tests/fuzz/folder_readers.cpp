@@ -40,6 +40,7 @@ Reader reader_of(const std::string& name, const Folder& folder, const std::strin
                  std::vector<Sample> samples) {
   return {name,
           [=](std::string_view bytes) {
+            fs::remove(*folder / file);  // to write over it would wait for the disk
             folder->write(file, std::string(bytes));
             use(folder->path());
           },

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same frames in each kind of recording: a TUM folder, a folder of PNG, ROS 1 bags.
 #include <catch2/catch.hpp>
-#include <regex>
 
 #include "nodes/formats/depth_image.hpp"
 #include "tests/support/bag_writer.hpp"
-#include "tests/support/command.hpp"
+#include "tests/support/small_images.hpp"
 
 using namespace posevote;
 using namespace posevote::test;
@@ -13,7 +12,6 @@ using namespace posevote::test;
 namespace {
 
 namespace fs = std::filesystem;
-using Depths = formats::DepthImage;
 
 constexpr int kFrames = 3;
 
@@ -21,22 +19,8 @@ fs::path image(const fs::path& folder, int i) {
   return folder / ("00000" + std::to_string(i) + ".png");
 }
 
-/// Two bodies on a table, seen by a small RGB-D camera.
-void simulate(const TemporaryFolder& folder) {
-  folder.write("small.yaml",
-               "{width: 160, height: 120, field: 40, noise: 0.0003, noise_z2: 0.0006}");
-  const std::string spec =
-      folder.write("spec.yaml",
-                   "models:\n  - {shape: figure, size: 0.2}\n  - {shape: kettle, size: 0.16}\n"
-                   "scenes:\n  - {sensor: small.yaml, count: 3, objects: [1, 2], clutter: 0}\n");
-  const CommandResult made =
-      run_posevote(folder, "simulate " + spec + " --out " + (folder / "data").string());
-  INFO(made.output);
-  REQUIRE(made.status == 0);
-}
-
-/// Depths in whole millimetres, as cameras write them.
-std::vector<std::uint16_t> in_millimetres(const Depths& depth, double scale) {
+/// formats::DepthImage in whole millimetres, as cameras write them.
+std::vector<std::uint16_t> in_millimetres(const formats::DepthImage& depth, double scale) {
   std::vector<std::uint16_t> whole;
   for (const std::uint16_t raw : depth.values)
     whole.push_back(static_cast<std::uint16_t>(std::lround(raw * scale)));
@@ -45,14 +29,12 @@ std::vector<std::uint16_t> in_millimetres(const Depths& depth, double scale) {
 
 class Recorder {
  public:
-  explicit Recorder(const TemporaryFolder& folder) : folder_(folder) {
-    simulate(folder_);
-    const fs::path scene = folder_ / "data/test/000001";
-    const auto camera = read_json(scene / "scene_camera.json")["0"];
+  explicit Recorder(const SmallImages& images) : folder_(images.folder) {
+    const auto camera = read_json(images.scene / "scene_camera.json")["0"];
     const auto& k = camera["cam_K"];
     camera_ = {k[0], k[4], k[2], k[5]};
     for (int i = 0; i < kFrames; ++i) {
-      const Depths raw = formats::read_depth_image(image(scene / "depth", i));
+      const formats::DepthImage raw = formats::read_depth_image(image(images.scene / "depth", i));
       images_.push_back({raw.width, raw.height, in_millimetres(raw, camera["depth_scale"])});
     }
   }
@@ -82,7 +64,7 @@ class Recorder {
  private:
   std::string write_images(const std::string& name, const std::string& list) const {
     for (int i = 0; i < kFrames; ++i) {
-      const Depths& one = images_[static_cast<std::size_t>(i)];
+      const formats::DepthImage& one = images_[static_cast<std::size_t>(i)];
       folder_.write(image(name + "/depth", i).string(),
                     depth_png(static_cast<std::uint32_t>(one.width),
                               static_cast<std::uint32_t>(one.height), one.values));
@@ -98,8 +80,8 @@ class Recorder {
   }
 
   const TemporaryFolder& folder_;
-  std::array<double, 4> camera_{};  ///< fx, fy, cx, cy [pixel]
-  std::vector<Depths> images_;      ///< in mm
+  std::array<double, 4> camera_{};           ///< fx, fy, cx, cy [pixel]
+  std::vector<formats::DepthImage> images_;  ///< in mm
 };
 
 CommandResult run(const TemporaryFolder& folder, const std::string& scenes,
@@ -108,31 +90,28 @@ CommandResult run(const TemporaryFolder& folder, const std::string& scenes,
                                   scenes + " --out " + (folder / "out").string() + " " + how);
 }
 
-/// Poses and confidences, without times.
-std::string answers(const TemporaryFolder& folder) {
-  return std::regex_replace(read_text(folder / "out/results.csv"), std::regex(",[^,\n]*\n"), "\n");
-}
-
 }  // namespace
 
 TEST_CASE("the same frames have the same poses in each kind of recording", "[recordings]") {
-  const TemporaryFolder folder;
-  const Recorder recorder(folder);
+  const SmallImages images;
+  const TemporaryFolder& folder = images.folder;
+  const Recorder recorder(images);
   std::string first;
   for (const std::string& recording : {recorder.png(), recorder.tum(), recorder.bag("none", false),
                                        recorder.bag("bz2", true), recorder.bag("lz4", false)}) {
     const CommandResult done = run(folder, recording, "--overwrite");
     INFO(recording << "\n" << done.output);
     CHECK(done.status == 0);
-    if (first.empty()) first = answers(folder);
+    if (first.empty()) first = answers(folder / "out");
     CHECK(std::count(first.begin(), first.end(), '\n') > kFrames);
-    CHECK(answers(folder) == first);
+    CHECK(answers(folder / "out") == first);
   }
 }
 
 TEST_CASE("a run of a bag is resumed, and notices another image in it", "[recordings]") {
-  const TemporaryFolder folder;
-  const Recorder recorder(folder);
+  const SmallImages images;
+  const TemporaryFolder& folder = images.folder;
+  const Recorder recorder(images);
   const std::string bag = recorder.bag("lz4", false);
   CHECK(run(folder, bag, "--shard 1/2").status == 0);
   CHECK(run(folder, bag, "--shard 1/2 --resume").status == 0);
@@ -147,8 +126,9 @@ TEST_CASE("a run of a bag is resumed, and notices another image in it", "[record
 }
 
 TEST_CASE("a damaged bag fails by name, and the scans beside it are answered", "[recordings]") {
-  const TemporaryFolder folder;
-  const Recorder recorder(folder);
+  const SmallImages images;
+  const TemporaryFolder& folder = images.folder;
+  const Recorder recorder(images);
   const std::string whole = recorder.bag("none", false);
   fs::create_directory(folder / "bags");
   fs::rename(whole, folder / "bags/whole.bag");
