@@ -62,6 +62,16 @@ TEST_CASE("an unreadable scan keeps its number; shards and resumed runs agree wi
   CHECK(csv("parts") == csv("whole"));
 }
 
+TEST_CASE("a scan in which nothing is found says what to type to learn why", "[run]") {
+  const World& w = world();
+  const CommandResult run = w.run("none", "--scenes " + (w.scans / "000001.ply").string() +
+                                              " --set segment_objects.min_confidence=1");
+  const std::string explain = "explain " + (w.folder / "none").string() + " --scene 000001";
+  CHECK_THAT(run.output,
+             Catch::Contains("the best candidate") && Catch::Contains("why: posevote " + explain));
+  CHECK(run_posevote(w.folder, explain).status == 0);
+}
+
 TEST_CASE("effective.yaml repeats the run, other node types included", "[run]") {
   const World& w = world();
   const std::string one = "--scenes " + (w.scans / "000001.ply").string();

@@ -37,7 +37,7 @@ TEST_CASE("a Slurm array with a task killed writes what one run would have", "[r
     return;
   }
   const TemporaryFolder folder;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 48; ++i) {
     fs::create_directories(folder / "scans");
     fs::copy(world().scans / ("00000" + std::to_string(i % 3) + ".ply"),
              folder / ("scans/scan" + std::to_string(i) + ".ply"));

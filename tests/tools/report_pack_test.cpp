@@ -117,7 +117,8 @@ TEST_CASE("no text can leave the script that it stands in", "[report]") {
 }
 
 TEST_CASE("models are those sought, those left out, and others by name", "[report]") {
-  ModelList models({{3, "chef", "chef.ply"}, {7, "cup", ""}}, {{"torn", 9, "load_models: torn"}});
+  ModelList models({{3, "chef", "chef.ply", ""}, {7, "cup", "", ""}},
+                   {{"torn", 9, "load_models: torn"}});
   CHECK(models.number_of(7, "cup") == 1);
   CHECK(models.number_of(0, "chef") == 0);
   CHECK(models.number_of(0, "stranger") == 3);

@@ -20,10 +20,12 @@ std::vector<std::string> node_names(const graph::Plan& plan) {
 }
 
 /// "0 found" alone explains nothing.
-std::string nearest_text(const Detection& best) {
+std::string nearest_text(const Detection& best, const std::string& out, const std::string& scan) {
   const auto worst = std::max_element(best.against.begin(), best.against.end());
   return "    the best candidate, " + printable(best.model) + ": " + best.why +
-         "; most against it: " + kClueNames[std::size_t(worst - best.against.begin())] + "\n";
+         "; most against it: " + kClueNames[std::size_t(worst - best.against.begin())] +
+         "\n    why: posevote explain " + quote_for_shell(printable(out)) + " --scene " +
+         quote_for_shell(printable(scan)) + "\n";
 }
 
 std::string figures_text(const graph::Figures& figures) {
@@ -87,7 +89,7 @@ void FrameReport::say(const graph::FrameResult<Detections>& result) const {
                      format(" found (%.2f s)\n", graph::cost(result.spans));
   for (const Detection& item : detections.items) text += detection_text(item);
   if (detections.items.empty() && !detections.rejected.empty())
-    text += nearest_text(detections.rejected.front());
+    text += nearest_text(detections.rejected.front(), command_.out, result.context.name);
   if (command_.verbose) text += figures_text(result.figures);
   std::cout << text << std::flush;
 }
