@@ -2,9 +2,13 @@
 #include "graph/yaml_document.hpp"
 
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <optional>
+#include <vector>
 
 namespace posevote::graph::detail {
 namespace {
@@ -12,6 +16,35 @@ namespace {
 /// "node.param"; the key alone where there is no node.
 std::string dotted(const std::string& subject, const std::string& key) {
   return subject.empty() ? key : subject + "." + key;
+}
+
+/// Where documents start, and nothing else of them.
+class Starts : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Where the file's second document starts, if it has one. Not by YAML::LoadAll, which finds
+/// documents without end, and takes memory for each, where one begins with a comma (yaml-cpp 0.7).
+std::optional<YAML::Mark> second_document(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  YAML::Parser parser(stream);
+  Starts starts;
+  if (!parser.HandleNextDocument(starts) || !parser.HandleNextDocument(starts)) return std::nullopt;
+  return starts.marks.size() > 1 ? std::optional(starts.marks[1]) : std::nullopt;
 }
 
 }  // namespace
@@ -22,10 +55,12 @@ YAML::Node Reader::load() const {
       report({file, 0, 0}, "", "is a folder, expected a YAML file");
       return YAML::Node(YAML::NodeType::Undefined);
     }
-    const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file);
-    for (std::size_t i = 1; i < documents.size(); ++i)
-      report(at(documents[i]), "", "starts another YAML document; only the first would count");
-    if (!documents.empty() && documents[0].IsMap()) return documents[0];
+    YAML::Node document = YAML::LoadFile(file);
+    if (document.IsMap()) {
+      if (const auto second = second_document(file))
+        report(at(*second), "", "starts another YAML document; only the first would count");
+      return document;
+    }
     report({file, 1, 1}, "", "expected a map of keys, as in `pipeline: recognize`");
   } catch (const YAML::BadFile&) {
     report({file, 0, 0}, "", "cannot be read: no such file?");

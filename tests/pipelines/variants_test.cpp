@@ -76,6 +76,7 @@ TEST_CASE("the example of every node can be pasted into a pipeline", "[nodes]") 
     }
     graph::make_plan(pipeline, ends, problems);
     for (const graph::Problem& problem : problems)
-      FAIL_CHECK(example(*spec) << "\n" << to_string(problem));
+      if (!problem.text.starts_with("reads '"))  // of the frame before: a node behind makes it
+        FAIL_CHECK(example(*spec) << "\n" << to_string(problem));
   }
 }
