@@ -73,6 +73,19 @@ TEST_CASE("what training depends on is trained anew, and the answer is JSON", "[
   CHECK(json["calls"]["load_scene"]["made"] == 3);
 }
 
+TEST_CASE("a sweep takes another's place only where it is told to", "[sweep]") {
+  const std::string arguments = "--vary " + kConfidence + "=0.5,0.9" + out_argument("twice");
+  REQUIRE(sweep(arguments).status == 0);
+  const std::string before = read_text(world().folder / "twice/sweep.json");
+  const CommandResult again = sweep(arguments);
+  INFO(again.output);
+  CHECK(again.status == 2);
+  CHECK(again.output.find("sweep.json: is there already; choose another --out") !=
+        std::string::npos);
+  CHECK(read_text(world().folder / "twice/sweep.json") == before);
+  CHECK(sweep(arguments + " --overwrite").status == 0);
+}
+
 TEST_CASE("a sweep says what is wrong, and where, before it begins", "[sweep]") {
   const auto refused = [](const std::string& arguments, const std::string& text) {
     const CommandResult result = sweep(arguments + out_argument("refused"));

@@ -32,7 +32,10 @@ double sweep_constant(const double& number, const Factor& params) {
   ++constant_calls;
   return params.factor * number;
 }
-double sweep_count(double& state, const double& number, const Factor&) { return state += number; }
+struct Sum {
+  double sum = 0;
+};
+double sweep_count(Sum& state, const double& number, const Factor&) { return state.sum += number; }
 
 const auto early = graph::register_node("sweep_early", sweep_early, "A multiple.")
                        .input("number")
@@ -48,21 +51,22 @@ const auto constant = graph::register_node("sweep_constant", sweep_constant, "A 
                           .output("product")
                           .param("factor", &Factor::factor, "", "How many times.");
 const auto stateful =
-    graph::register_stateful_node<double>("sweep_count", sweep_count, "What there was so far.")
+    graph::register_stateful_node<Sum>("sweep_count", sweep_count, "What there was so far.")
         .input("number")
         .output("sum")
         .param("factor", &Factor::factor, "", "Nothing.");
 
-/// result = late (early x) + 10 c
-graph::Plan make_plan(const test::TemporaryFolder& folder, double early, double late,
+/// result = last_factor (first_factor x) + 10 c
+graph::Plan make_plan(const test::TemporaryFolder& folder, double first_factor, double last_factor,
                       const std::string& first = "sweep_early") {
   std::vector<graph::Problem> problems;
   const auto description = graph::read_pipeline(
-      folder.write("p.yaml", "inputs: [x]\nmodels: m\nresult: sum\nnodes:\n  first: {node: " +
-                                 first + ", in: x, out: y, factor: " + std::to_string(early) +
-                                 "}\n  sweep_constant: {in: c, out: k, factor: 10}\n"
-                                 "  sweep_late: {in: [y, k], out: sum, factor: " +
-                                 std::to_string(late) + "}\n"),
+      folder.write("p.yaml",
+                   "inputs: [x]\nmodels: m\nresult: sum\nnodes:\n  first: {node: " + first +
+                       ", in: x, out: y, factor: " + std::to_string(first_factor) +
+                       "}\n  sweep_constant: {in: c, out: k, factor: 10}\n"
+                       "  sweep_late: {in: [y, k], out: sum, factor: " +
+                       std::to_string(last_factor) + "}\n"),
       problems);
   graph::Plan plan =
       graph::make_plan(description,

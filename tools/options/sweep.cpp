@@ -67,6 +67,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--out", run.out, "Folder for the table and the plot")
       ->type_name("DIR")
       ->capture_default_str();
+  app.add_flag("--overwrite", run.overwrite, "Write anew what an earlier sweep wrote to --out");
   app.add_option("--pipeline", run.pipeline,
                  "Other wiring than the config's, as `posevote configs` lists (ransac ...)")
       ->type_name("PIPELINE");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <set>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@
 #include "tools/experiment/experiment.hpp"
 #include "tools/json_answer.hpp"
 #include "tools/progress/progress.hpp"
+#include "tools/run_lock.hpp"
 #include "tools/run_setup.hpp"
 #include "tools/text.hpp"
 
@@ -54,6 +56,14 @@ SharedStages prepare(const RunCommand& run, const std::vector<Configuration>& co
     variants.push_back({&configuration.scenes, {{stream, library}}});
   }
   return SharedStages(std::move(variants));
+}
+
+/// A sweep takes long: its report is taken away only where the command says so.
+void check_out(const RunCommand& run) {
+  const std::filesystem::path report = std::filesystem::path(run.out) / "sweep.json";
+  if (!run.overwrite && std::filesystem::exists(report))
+    throw std::invalid_argument(report.string() +
+                                ": is there already; choose another --out or say --overwrite");
 }
 
 /// Settings that cannot differ are a mistake: equal values, or a node that only writes.
@@ -184,6 +194,7 @@ int exit_status(const Sweep& sweep, const Libraries& libraries, bool interrupted
 int sweep_command(const SweepCommand& command, const std::atomic<bool>& interrupted) {
   const JsonAnswer answer(command.run.json);
   choose_rules(command.judge.rules);  // typing mistakes show before anything is read
+  check_out(command.run);
   Sweep sweep;
   sweep.axes = read_axes(command.vary);
   const std::vector<Values> values = combine(sweep.axes);
@@ -197,8 +208,10 @@ int sweep_command(const SweepCommand& command, const std::atomic<bool>& interrup
       as_arguments([&] { return prepare(command.run, configurations, libraries); });
   for (const auto& [parameters, library] : libraries) tell_left_out(*library);
   check_differ(sweep.axes, values, stages);
+  const RunLock lock(command.run.out);
   for (const Values& each : values) sweep.settings.push_back({each, {}, 0, 0});
   const auto seen = search(command.run, scans, stages, sweep.settings, interrupted);
+  if (seen.empty()) return 130;  // interrupted before there was anything to say
   std::erase_if(truth.instances, [&](const layouts::TrueInstance& instance) {
     return !seen.contains({instance.scene_id, instance.im_id});
   });
@@ -206,7 +219,6 @@ int sweep_command(const SweepCommand& command, const std::atomic<bool>& interrup
   sweep.calls = stages.calls();
   sweep.rules = judge(truth, command.judge, sweep.settings, seen, command.run.seed);
   std::printf("%s", to_text(sweep).c_str());
-  std::filesystem::create_directories(command.run.out);
   const nlohmann::ordered_json json = to_json(sweep);
   write_report(std::filesystem::path(command.run.out) / "sweep", json.dump(1) + "\n",
                to_csv(rows_of(sweep)), to_svg(sweep));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a sweep says: as text, rows, JSON and a plot.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -188,8 +189,11 @@ std::string to_svg(const Sweep& sweep) {
   if (!rule.rule.average())
     add(rule.rule.text, "F1", [&](std::size_t i) { return rule.counts[i].f1(); });
   for (plot::Chart& each : charts) each.y_range = {0, 1};
-  add("one scan at a time", "s a scan",
-      [&](std::size_t i) { return per_image(sweep, sweep.settings[i].seconds); });
+  const auto seconds = [&](std::size_t i) { return per_image(sweep, sweep.settings[i].seconds); };
+  add("one scan at a time", "s a scan", seconds);
+  double most = 0;
+  for (std::size_t i = 0; i < sweep.settings.size(); ++i) most = std::max(most, seconds(i));
+  charts.back().y_range = {0, 1.2 * most};  // with room for the legend
   return plot::to_svg(charts);
 }
 
