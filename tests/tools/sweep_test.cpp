@@ -223,3 +223,23 @@ TEST_CASE("the best setting is named, and those that may be as good", "[sweep]")
   CHECK(json["rows"][0]["seconds_per_scan"] == 0.1);
   CHECK(to_svg(sweep).find("F1") != std::string::npos);
 }
+
+TEST_CASE("a rule by which nothing can be judged has no best setting", "[sweep]") {
+  Sweep sweep;
+  sweep.axes = read_axes({"a.b=1,2"});
+  for (const Values& values : combine(sweep.axes)) sweep.settings.push_back({values, {}, 0, 1});
+  sweep.images = 10;
+  const std::vector<Certainty> certainty(2, {{0, 0}, {0, 0}, {0, 0}});
+  sweep.rules = {{choose_rules("vsd18").at(0), {counts(0, 0, 4), counts(0, 0, 4)}, certainty, 0},
+                 {choose_rules("add").at(0), {counts(5, 10, 10), counts(8, 10, 10)}, certainty, 1}};
+  const std::string text = to_text(sweep);
+  INFO(text);
+  CHECK(text.find("no instance can be judged by it") != std::string::npos);
+  CHECK(text.find("best by " + sweep.rules[0].rule.text) == std::string::npos);
+  const auto json = to_json(sweep);
+  CHECK(json["rows"][0]["recall"].is_null());
+  CHECK(json["rows"][2]["recall"] == 0.5);
+  REQUIRE(json["best"].size() == 1);
+  CHECK(json["best"][0]["rule"] == "add");
+  CHECK(to_svg(sweep).find(sweep.rules[1].rule.text) != std::string::npos);
+}

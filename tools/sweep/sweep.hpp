@@ -47,6 +47,8 @@ struct Judged {
   std::vector<Counts> counts;
   std::vector<Certainty> certainty;
   std::size_t best = 0;  ///< of equals the first
+  /// False where nothing could be judged by it, as by VSD without depth images.
+  bool applies() const { return counts.at(best).instances > 0; }
 };
 
 struct Sweep {
@@ -64,7 +66,7 @@ std::string to_text(const Sweep& sweep);
 /// One row for each rule and setting, of plain values.
 nlohmann::ordered_json rows_of(const Sweep& sweep);
 nlohmann::ordered_json to_json(const Sweep& sweep);
-/// Recall, F1 and time over the values of the first axis, by the first rule.
+/// Recall, F1 and time over the values of the first axis, by the first rule that applies.
 std::string to_svg(const Sweep& sweep);
 
 }  // namespace sweep

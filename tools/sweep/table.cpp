@@ -92,9 +92,12 @@ Json row_of(const Sweep& sweep, const Judged& rule, std::size_t i) {
     row[sweep.axes[a].name()] = sweep.settings[i].values[a];
   row["instances"] = counts.instances;
   row["correct"] = counts.correct;
-  row["recall"] = counts.recall();
-  row["recall_low"] = certainty.recall.low;
-  row["recall_high"] = certainty.recall.high;
+  const auto if_judged = [&](const char* name, double value) {
+    row[name] = rule.applies() ? Json(value) : Json(nullptr);
+  };
+  if_judged("recall", counts.recall());
+  if_judged("recall_low", certainty.recall.low);
+  if_judged("recall_high", certainty.recall.high);
   const auto unless_average = [&](const char* name, const Json& value) {
     row[name] = rule.rule.average() ? Json(nullptr) : value;
   };
@@ -152,11 +155,15 @@ std::string to_text(const Sweep& sweep) {
     all.asked += calls.asked;
     all.made += calls.made;
   }
-  text += format("%zu settings, %zu scans; %zu of %zu calls of nodes made, the others shared\n",
+  text += format("settings: %zu, scans: %zu; %zu of %zu calls of nodes made, the others shared\n",
                  sweep.settings.size(), sweep.images, all.made, all.asked);
   for (const Judged& rule : sweep.rules) {
-    text += "\n" + rule.rule.text + "\n" +
-            format("%4s  %-20s  %-20s  %8s  %6s\n", "", "recall [95 %]",
+    text += "\n" + rule.rule.text + "\n";
+    if (!rule.applies()) {
+      text += "no instance can be judged by it here; `posevote evaluate` says why\n";
+      continue;
+    }
+    text += format("%4s  %-20s  %-20s  %8s  %6s\n", "", "recall [95 %]",
                    rule.rule.average() ? "" : "F1 [95 %]", "s a scan", "failed");
     for (std::size_t i = 0; i < sweep.settings.size(); ++i) text += line(sweep, rule, i);
     text += best_line(sweep, rule);
@@ -173,14 +180,17 @@ Json rows_of(const Sweep& sweep) {
 
 Json to_json(const Sweep& sweep) {
   Json json{{"scans", sweep.images}, {"rows", rows_of(sweep)}, {"best", Json::array()}};
-  for (const Judged& rule : sweep.rules) json["best"].push_back(best_json(sweep, rule));
+  for (const Judged& rule : sweep.rules)
+    if (rule.applies()) json["best"].push_back(best_json(sweep, rule));
   for (const auto& [node, calls] : sweep.calls)
     json["calls"][node] = {{"asked", calls.asked}, {"made", calls.made}};
   return json;
 }
 
 std::string to_svg(const Sweep& sweep) {
-  const Judged& rule = sweep.rules.front();
+  const auto shown = std::find_if(sweep.rules.begin(), sweep.rules.end(),
+                                  [](const Judged& rule) { return rule.applies(); });
+  const Judged& rule = shown == sweep.rules.end() ? sweep.rules.front() : *shown;
   std::vector<plot::Chart> charts;
   const auto add = [&](const std::string& title, const std::string& label, const auto& value) {
     charts.push_back(chart(sweep, title, label, value));
