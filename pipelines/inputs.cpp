@@ -90,14 +90,25 @@ std::vector<fs::path> expand(const std::string& argument, formats::Wanted wanted
   return paths;
 }
 
-/// The scans of a folder of depth images with their cameras, of another folder, a file or a glob.
+/// Of a file of many images in a folder or of a glob. One that cannot be read stays as it is, for its
+/// frame to fail on, and the others go on.
+std::vector<SceneFile> frames_among_others(const fs::path& file) try {
+  if (const auto* recording = layouts::find_recording(file)) return recording->frames(file);
+  return {{file, 0, 0, std::nullopt}};
+} catch (const std::runtime_error& error) {
+  spdlog::warn("{}", error.what());
+  return {{file, 0, 0, std::nullopt}};
+}
+
+/// The scans of a recording with their cameras, of a folder, a file or a glob.
 std::vector<SceneFile> expand_scans(const std::string& argument) {
-  std::error_code is_loop;  // of links
-  const layouts::Recording* recording =
-      fs::is_directory(argument, is_loop) ? layouts::find_recording(argument) : nullptr;
-  if (recording) return recording->frames(argument);
+  if (const auto* recording = layouts::find_recording(argument)) return recording->frames(argument);
   std::vector<SceneFile> files;
   for (fs::path& path : expand(argument, formats::Wanted::kAny)) {
+    if (!formats::container_of(path).empty()) {
+      for (SceneFile& frame : frames_among_others(path)) files.push_back(std::move(frame));
+      continue;
+    }
     const bool image = formats::has_ending(path, formats::Wanted::kDepthImages);
     const auto camera = image ? layouts::camera_beside(path) : std::nullopt;
     files.push_back({std::move(path), 0, 0, camera});

@@ -10,14 +10,13 @@
 #include "nodes/descriptors/descriptor_index.hpp"
 #include "pipelines/inputs.hpp"
 #include "pipelines/library.hpp"
-#include "pipelines/overrides.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
 #include "tools/json_answer.hpp"
 #include "tools/manifest/run_folder.hpp"
-#include "tools/manifest/run_inputs.hpp"
 #include "tools/progress/frame_report.hpp"
 #include "tools/run_lock.hpp"
+#include "tools/run_setup.hpp"
 #include "tools/stream/followed_scans.hpp"
 #include "tools/stream/memory.hpp"
 #include "tools/stream/run_stream.hpp"
@@ -28,55 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Published data sets are in mm; the config and --set may say otherwise.
-std::vector<graph::Override> dataset_defaults(const RunCommand& command) {
-  if (command.dataset.empty()) return {};
-  return {{"load_models", "unit", {"mm", {"--dataset", 0, 0}}},
-          {"load_scene", "unit", {"mm", {"--dataset", 0, 0}}}};
-}
-
-Configuration read_configuration(const RunCommand& command) {
-  std::vector<graph::Override> options = model_overrides(command.model_unit);
-  for (graph::Override& change : scene_overrides(command.scene_unit, command.sensor_pose))
-    options.push_back(std::move(change));
-  return load_configuration(command.config, command.set, dataset_defaults(command),
-                            command.pipeline, options);
-}
-
 std::vector<SceneEntry> find_scenes(const RunCommand& command, const StreamOptions& options) {
   if (options.follow) return {};
   if (command.scenes.empty() == command.dataset.empty())
     throw std::invalid_argument("expected --scenes FILE... or --dataset DIR, one of them");
   return command.dataset.empty() ? list_scenes(command.scenes)
                                  : list_dataset_scenes(command.dataset, command.split);
-}
-
-/// None where they come in a library.
-ModelFiles find_models(const RunCommand& command) {
-  if (!command.library.empty() && !command.models.empty())
-    throw std::invalid_argument("expected --models FILE... or --library FILE, one of them");
-  if (!command.library.empty()) return {};
-  std::vector<std::string> files = command.models;
-  if (files.empty() && !command.dataset.empty())
-    files = list_dataset_models(command.dataset, command.split);
-  if (files.empty()) throw std::invalid_argument("expected --models FILE... or --library FILE");
-  return list_models(files);
-}
-
-std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
-                                                 const Configuration& configuration,
-                                                 const ModelFiles& models) {
-  if (command.library.empty()) {
-    graph::Activity activity;
-    const Progress progress(
-        {"preparing " + std::to_string(models.size()) + " models", 0, &activity, !command.quiet});
-    return cached_library(configuration, models,
-                          command.cache.empty() ? default_cache() : fs::path(command.cache),
-                          bad_models(command.on_error), &activity);
-  }
-  auto library = load_trained(command.library, configuration);
-  tell_odd_sizes(configuration, *library, {});
-  return library;
 }
 
 graph::RunSummary run_scenes(const RunCommand& command, const Configuration& configuration,

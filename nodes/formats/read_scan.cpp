@@ -53,8 +53,9 @@ Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit, const 
 }
 
 DepthImage read_depth_image(const std::filesystem::path& path) {
-  const FileBytes bytes = read_file(path);
-  return find_reader<ReadDepth>(path, Wanted::kDepthImages)(bytes.view());
+  const ReadDepth read = find_reader<ReadDepth>(path, Wanted::kDepthImages);
+  if (const ReadEntry entry = find_format(path)->entry) return read(entry(path));
+  return read(read_file(path).view());
 }
 
 std::vector<float> depths_of(const DepthImage& image, double millimetres_per_unit) {

@@ -6,12 +6,10 @@
 #include <cstdio>
 
 namespace posevote::formats {
-namespace {
 
 using nlohmann::ordered_json;
 
-/// Text is quoted where it holds what a table lives by; numbers come out as they go in.
-std::string field(const ordered_json& value) {
+std::string csv_field(const ordered_json& value) {
   if (!value.is_string()) return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   const auto text = value.get<std::string>();
   if (text.find_first_of("\",\r\n") == std::string::npos) return text;
@@ -19,8 +17,6 @@ std::string field(const ordered_json& value) {
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
-
-}  // namespace
 
 std::string bop_rows(const ordered_json& frame) {
   std::string rows;
@@ -44,11 +40,12 @@ std::string table_rows(const ordered_json& frame) {
   std::string rows;
   for (const ordered_json& found : frame.at("detections")) {
     for (const char* key : {"frame", "file", "scene_id", "im_id"})
-      rows += field(frame.at(key)) + ",";
-    for (const char* key : {"obj_id", "model", "confidence"}) rows += field(found.at(key)) + ",";
+      rows += csv_field(frame.at(key)) + ",";
+    for (const char* key : {"obj_id", "model", "confidence"})
+      rows += csv_field(found.at(key)) + ",";
     for (const char* key : {"t_m", "q_wxyz"})
-      for (const ordered_json& number : found.at(key)) rows += field(number) + ",";
-    rows += field(found.at("rmse_m")) + "\n";
+      for (const ordered_json& number : found.at(key)) rows += csv_field(number) + ",";
+    rows += csv_field(found.at("rmse_m")) + "\n";
   }
   return rows;
 }

@@ -8,6 +8,10 @@
 
 namespace posevote::formats {
 
+/// A plain value in a table: text is quoted where it holds what a table lives by (RFC 4180); numbers
+/// come out as they go in.
+std::string csv_field(const nlohmann::ordered_json& value);
+
 /// results.csv, in BOP's format; R row by row, t in mm, time in s.
 inline constexpr const char* kBopHeader = "scene_id,im_id,obj_id,score,R,t,time\n";
 std::string bop_rows(const nlohmann::ordered_json& frame);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "nodes/formats/format.hpp"
 #include "nodes/formats/sensor_pose.hpp"
 #include "nodes/library/content_hash.hpp"
 
@@ -12,6 +13,8 @@ namespace fs = std::filesystem;
 
 std::string hash_scan(const SceneFile& scan) {
   if (scan.points || scan.depth) return "";
+  if (const Format* format = find_format(scan.path); format && format->entry)
+    return library::checksum(format->entry(scan.path));
   std::vector<fs::path> files{scan.path};
   const fs::path pose = pose_file_of(scan.path);
   std::error_code is_loop;

@@ -4,6 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "nodes/formats/format.hpp"
+
 namespace posevote::layouts {
 namespace {
 
@@ -20,9 +22,13 @@ bool register_recording(const Recording& recording) {
   return true;
 }
 
-const Recording* find_recording(const std::filesystem::path& folder) {
+const Recording* find_recording(const std::filesystem::path& path) {
+  std::error_code is_loop;  // of links
+  if (!std::filesystem::is_directory(path, is_loop) &&
+      !std::filesystem::exists(formats::container_of(path), is_loop))
+    return nullptr;
   for (const auto& [name, recording] : registry())
-    if (recording.recognises(folder)) return &recording;
+    if (recording.recognises(path)) return &recording;
   return nullptr;
 }
 

@@ -77,7 +77,6 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
 
 LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
                        const DepthRange& range) {
-  check_camera(camera);
   const formats::DepthImage image = formats::read_depth_image(path);
   if (range.most_pixels > 0 && image.width * image.height > range.most_pixels)
     throw std::runtime_error("has " + std::to_string(image.width) + " x " +

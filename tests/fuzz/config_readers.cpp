@@ -26,7 +26,11 @@ using Use = std::function<void(const std::string& file)>;
 Reader file_reader(const std::string& name, const std::string& file, const Use& use,
                    std::vector<Sample> samples) {
   const auto folder = std::make_shared<TemporaryFolder>();
-  return {name, [=](std::string_view bytes) { use(folder->write(file, std::string(bytes))); },
+  return {name,
+          [=](std::string_view bytes) {
+            std::filesystem::remove(*folder / file);  // to write over it would wait for the disk
+            use(folder->write(file, std::string(bytes)));
+          },
           std::move(samples)};
 }
 
@@ -34,7 +38,8 @@ void read_pipeline(const std::string& file) {
   static const std::string base =
       "inputs: [x]\nresult: y\nnodes:\n  a: {in: x, out: q}\n  b: {in: x, out: z}\n  c: {in: x, "
       "out: w}\n";
-  std::ofstream(std::filesystem::path(file).replace_filename("base.yaml")) << base;
+  const auto beside = std::filesystem::path(file).replace_filename("base.yaml");
+  if (!std::filesystem::exists(beside)) std::ofstream(beside) << base;
   std::vector<graph::Problem> problems;
   graph::read_pipeline(file, problems);
   if (!problems.empty()) throw graph::ConfigError(problems);

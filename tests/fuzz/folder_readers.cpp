@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "nodes/formats/depth_image.hpp"
 #include "nodes/formats/sensor_pose.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "nodes/layouts/camera_file.hpp"
@@ -10,6 +11,7 @@
 #include "nodes/layouts/models_info.hpp"
 #include "nodes/layouts/recording.hpp"
 #include "tests/fuzz/reader.hpp"
+#include "tests/support/bag_writer.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -38,6 +40,7 @@ Reader reader_of(const std::string& name, const Folder& folder, const std::strin
                  std::vector<Sample> samples) {
   return {name,
           [=](std::string_view bytes) {
+            fs::remove(*folder / file);  // to write over it would wait for the disk
             folder->write(file, std::string(bytes));
             use(folder->path());
           },
@@ -56,6 +59,26 @@ void read_recording(const fs::path& folder) {
   const layouts::Recording* recording = layouts::find_recording(folder);
   if (!recording) throw std::runtime_error("no recording");
   recording->frames(folder);
+}
+
+/// Under a name of its own each time: a bag that was opened stays known for the next of its images.
+void read_bag(std::string_view bytes) {
+  static const TemporaryFolder folder;
+  static std::size_t count = 0;
+  const fs::path file = folder.write(std::to_string(count++) + ".bag", std::string(bytes));
+  const std::shared_ptr<void> removal(nullptr, [&](void*) { fs::remove(file); });
+  for (const SceneFile& frame : layouts::find_recording(file)->frames(file))
+    formats::read_depth_image(frame.path);
+}
+
+std::string bag(const std::string& compression) {
+  BagWriter bag(compression);
+  bag.add("/d/camera_info", "sensor_msgs/CameraInfo", 1, ros_camera(3, 2, {500, 510, 1.5, 1}));
+  bag.add("/d/image", "sensor_msgs/Image", 2,
+          ros_image<std::uint16_t>(3, 2, "16UC1", {1, 2, 3, 4, 5, 6}));
+  bag.end_chunk();
+  bag.add("/d/image", "sensor_msgs/Image", 3, ros_image<float>(2, 1, "32FC1", {0.5F, 1.25F}));
+  return bag.bytes();
 }
 
 const std::string kCamera = R"({"0": {"cam_K": [500, 0, 320, 0, 510, 240, 0, 0, 1],
@@ -125,6 +148,7 @@ std::vector<Reader> folder_readers() {
                  {"a matrix", "500 0 320\n0 510 240\n0 0 1\n", false}}),
       reader_of("tum", make_folder({{"depth/a.png", ""}}), "depth.txt", read_recording,
                 {{"two frames", "# depth maps\n20.5 depth/b.png\n3.25 depth/a.png\n", false}}),
+      {"bag", read_bag, {{"plain", bag("none")}, {"bz2", bag("bz2")}, {"lz4", bag("lz4")}}},
       {"pose",
        [](std::string_view text) { formats::sensor_pose(formats::read_pose_numbers(text)); },
        {{"a place", "# where it stood\n0.1, 0.2; 0.3\n", false},

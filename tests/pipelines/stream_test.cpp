@@ -7,36 +7,16 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <regex>
 #include <set>
 #include <thread>
 
-#include "tests/support/command.hpp"
+#include "tests/support/small_images.hpp"
 
 using namespace posevote::test;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Small RGB-D images of two bodies on a table.
-struct SmallImages {
-  TemporaryFolder folder;
-  fs::path scene = folder / "data/test/000001";
-
-  SmallImages() {
-    folder.write("small.yaml",
-                 "{width: 160, height: 120, field: 40, noise: 0.0003, noise_z2: 0.0006}");
-    const std::string spec =
-        folder.write("spec.yaml",
-                     "models:\n  - {shape: figure, size: 0.2}\n  - {shape: kettle, size: 0.16}\n"
-                     "scenes:\n  - {sensor: small.yaml, count: 3, objects: [1, 2], clutter: 0}\n");
-    const CommandResult made =
-        run_posevote(folder, "simulate " + spec + " --out " + (folder / "data").string());
-    INFO(made.output);
-    REQUIRE(made.status == 0);
-  }
-};
 
 /// A recording of so many frames, another scene after 50, every 20th of them broken in one of five ways. Returns those.
 std::set<std::string> record(const SmallImages& images, const fs::path& recording, int frames) {
@@ -109,11 +89,6 @@ long peak(const std::vector<long>& memory, double from, double to) {
     return memory.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(memory.size()));
   };
   return *std::max_element(at(from), at(to));
-}
-
-/// Poses and confidences, without times.
-std::string answers(const fs::path& out) {
-  return std::regex_replace(read_text(out / "results.csv"), std::regex(",[^,\n]*\n"), "\n");
 }
 
 void run_stream(int frames, bool is_flat) {

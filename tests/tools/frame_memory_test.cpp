@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 
+#include "tests/support/bag_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/stream/memory.hpp"
 
@@ -26,6 +27,14 @@ TEST_CASE("what a frame will take is told from its file's head", "[memory]") {
   file.path = folder.write("b.png", "no");
   CHECK(stream::expected_bytes(file) < 1000);
   file.path = folder / "none.png";
+  CHECK(stream::expected_bytes(file) == 0);
+  BagWriter bag;
+  bag.add("/d", "sensor_msgs/Image", 1,
+          ros_image(100, 50, "16UC1", std::vector<std::uint16_t>(5000)));
+  file.path = std::filesystem::path(folder.write("a.bag", bag.bytes())) / "d/000000";
+  CHECK(stream::expected_bytes(file) / 64 >= 5000);
+  CHECK(stream::expected_bytes(file) / 64 < 5100);
+  file.path = folder / "a.bag/d/000001";
   CHECK(stream::expected_bytes(file) == 0);
 }
 

@@ -11,6 +11,18 @@
 namespace posevote::ablation {
 namespace {
 
+void call(const graph::PlannedNode& node, const graph::FrameContext& context,
+          std::vector<graph::Value>& values) {
+  std::vector<graph::Value> inputs;
+  for (std::size_t i = 0; i < node.inputs.size(); ++i)
+    inputs.push_back(graph::is_previous(node, i) ? nullptr : values[std::size_t(node.inputs[i])]);
+  std::vector<graph::Value> made = graph::call_node(node, inputs, context);
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (node.outputs[i] >= 0) values[std::size_t(node.outputs[i])] = std::move(made[i]);
+}
+
+}  // namespace
+
 std::size_t number_of(const graph::Plan& plan, const std::string& stream) {
   for (std::size_t i = 0; i < plan.streams.size(); ++i)
     if (plan.streams[i].name == stream) return i;
@@ -30,18 +42,6 @@ std::vector<bool> nodes_before(const graph::Plan& plan, int result) {
   }
   return needed;
 }
-
-void call(const graph::PlannedNode& node, const graph::FrameContext& context,
-          std::vector<graph::Value>& values) {
-  std::vector<graph::Value> inputs;
-  for (std::size_t i = 0; i < node.inputs.size(); ++i)
-    inputs.push_back(graph::is_previous(node, i) ? nullptr : values[std::size_t(node.inputs[i])]);
-  std::vector<graph::Value> made = graph::call_node(node, inputs, context);
-  for (std::size_t i = 0; i < made.size(); ++i)
-    if (node.outputs[i] >= 0) values[std::size_t(node.outputs[i])] = std::move(made[i]);
-}
-
-}  // namespace
 
 const graph::PlannedNode& find_planned(const graph::Plan& plan, const std::string& name) {
   for (const graph::PlannedNode& node : plan.nodes)

@@ -36,6 +36,12 @@ class Replay {
   std::vector<graph::Value> values_;  ///< per stream
 };
 
+/// The number of the stream of that name. Throws std::invalid_argument where there is none.
+std::size_t number_of(const graph::Plan& plan, const std::string& stream);
+
+/// Per node: whether the stream of that number depends on it within a frame.
+std::vector<bool> nodes_before(const graph::Plan& plan, int stream);
+
 /// The node of that name. Throws std::invalid_argument where there is none.
 const graph::PlannedNode& find_planned(const graph::Plan& plan, const std::string& name);
 

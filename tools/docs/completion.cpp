@@ -132,7 +132,7 @@ void add_values(const std::string& kind, const Words& arguments, const std::stri
     completion.words.insert(completion.words.end(), more.begin(), more.end());
   };
   if (const auto list = kLists.find(kind); list != kLists.end()) add(list->second());
-  if (kind == "NODE.PARAM=VALUE") add(settings(arguments, begun));
+  if (kind.starts_with("NODE.PARAM=VALUE")) add(settings(arguments, begun));
   if (kind == "DIR") completion.files = Files::kFolders;
   if (kind == "FILE" || kind == "PATH" || kind == "CONFIG") completion.files = Files::kAll;
   const bool is_value = std::any_of(kind.begin(), kind.end(), [](unsigned char c) {

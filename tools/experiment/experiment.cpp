@@ -9,6 +9,7 @@
 #include "graph/did_you_mean.hpp"
 #include "graph/plugin.hpp"
 #include "graph/registry.hpp"
+#include "nodes/formats/results_tables.hpp"
 #include "tools/ablation/ablation.hpp"
 #include "tools/json_answer.hpp"
 #include "tools/write_text.hpp"
@@ -93,8 +94,7 @@ std::string to_csv(const nlohmann::ordered_json& rows) {
     std::string line;
     for (const auto& [key, value] : row.items()) {
       head += (head.empty() ? "" : ",") + key;
-      line +=
-          (line.empty() ? "" : ",") + (value.is_string() ? value.get<std::string>() : value.dump());
+      line += (line.empty() ? "" : ",") + formats::csv_field(value);
     }
     text += line + "\n";
   }

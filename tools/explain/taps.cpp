@@ -8,6 +8,7 @@
 
 #include "graph/wiring.hpp"
 #include "graph/yaml_reader.hpp"
+#include "nodes/formats/format.hpp"
 
 namespace posevote::explain {
 namespace {
@@ -62,7 +63,7 @@ Run open_run(const fs::path& out, const std::vector<std::string>& models) {
 
 SceneFile scene_file(const Run& run, const FrameOfRun& frame) {
   SceneFile file = run.inputs.scene(frame.number, frame.file, frame.scene_id, frame.im_id);
-  if (!fs::exists(file.path))
+  if (!fs::exists(formats::file_of(file.path)))
     throw std::invalid_argument(file.path.string() + ": the scan of frame '" + frame.name +
                                 "' is not there any more");
   return file;

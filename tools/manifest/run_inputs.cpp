@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "nodes/formats/format.hpp"
 #include "nodes/library/library_file.hpp"
 #include "pipelines/library.hpp"
 
@@ -26,8 +27,11 @@ void RunInputs::use_models(std::vector<std::string> files) { models_ = std::move
 
 fs::path RunInputs::find(const fs::path& file) const {
   const fs::path there = (fs::path(folder_) / file).lexically_normal();
-  std::error_code none;
-  return !fs::exists(there, none) && fs::exists(file, none) ? file : there;
+  const auto is_there = [](const fs::path& path) {
+    std::error_code none;
+    return fs::exists(formats::file_of(path), none);
+  };
+  return !is_there(there) && is_there(file) ? file : there;
 }
 
 SceneFile RunInputs::scene(std::size_t frame, const fs::path& file, int scene_id, int im_id) const {

@@ -7,6 +7,8 @@
 #include <bit>
 #include <climits>
 #include <fstream>
+#include <set>
+#include <stdexcept>
 #include <string_view>
 
 #include "nodes/formats/file_bytes.hpp"
@@ -32,10 +34,25 @@ std::size_t pixels_of_png(const std::filesystem::path& file) {
   return number(kWidth) * number(kHeight);
 }
 
+/// Of what lies in a file of many images; 0 where it cannot be read, for its frame to fail on.
+std::size_t size_of_entry(const formats::Format& format, const std::filesystem::path& path) try {
+  return format.entry(path).size();
+} catch (const std::runtime_error&) {
+  return 0;
+}
+
+/// One image of each topic stands for all: to look at each would be to read the whole file.
+bool is_like_another(const SceneEntry& scan, std::set<std::filesystem::path>& known) {
+  const std::filesystem::path& path = scan.file.path;
+  return !formats::container_of(path).empty() && !known.insert(path.parent_path()).second;
+}
+
 }  // namespace
 
 std::size_t expected_bytes(const SceneFile& file) {
   if (file.points || file.depth) return 0;
+  if (const formats::Format* format = formats::find_format(file.path); format && format->entry)
+    return kBytesOfPixel * size_of_entry(*format, file.path) / sizeof(std::uint16_t);
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(file.path, none);
   if (none) return 0;
@@ -53,7 +70,9 @@ std::size_t memory_limit(std::uint64_t asked) {
 std::size_t tokens_within(std::size_t memory, std::size_t tokens,
                           const std::vector<SceneEntry>& scans) {
   std::size_t largest = 1;
-  for (const SceneEntry& scan : scans) largest = std::max(largest, expected_bytes(scan.file));
+  std::set<std::filesystem::path> known;
+  for (const SceneEntry& scan : scans)
+    if (!is_like_another(scan, known)) largest = std::max(largest, expected_bytes(scan.file));
   return std::clamp<std::size_t>(memory / largest, 1, tokens);
 }
 

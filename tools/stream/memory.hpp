@@ -12,7 +12,7 @@
 namespace posevote::stream {
 
 /// [bytes], at the worst moment of its way; 0 where nobody can tell. Opens the file, but does not
-/// read it.
+/// read it; of a file of many images it reads the one.
 std::size_t expected_bytes(const SceneFile& file);
 
 /// [bytes] for all frames in flight: as asked, else half of the machine's.
