@@ -58,6 +58,8 @@ struct Model {
       Eigen::Vector3f::Zero();  ///< centre c of the full model's bounding box [m]
   float diagonal = 0;           ///< of that bounding box [m]
   Symmetries symmetries;        ///< of the finest alone
+  Symmetries
+      shape_symmetries;  ///< as far as this octave resolves the shape: what only colours tell
   NearSymmetries near_symmetries;
   Outline outline;
   std::shared_ptr<const pairs::PairTable> pairs;  ///< of the finest alone

@@ -80,6 +80,7 @@ void check_model(const Model& model) {
   require_inside(model.cloud.points, model, "points");
   require_inside(model.features.points, model, "feature points");
   check_symmetries(model.symmetries);
+  check_symmetries(model.shape_symmetries);
   for (const NearSymmetry& one : model.near_symmetries.items) {
     require(one.motion.matrix().allFinite() && one.motion.linear().isUnitary(1e-6),
             "a near symmetry is no motion");

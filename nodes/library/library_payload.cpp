@@ -51,6 +51,7 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put_matrix(model.center);
   out.put(model.diagonal);
   put_symmetries(out, model.symmetries);
+  put_symmetries(out, model.shape_symmetries);
   out.put(std::uint64_t{model.near_symmetries.items.size()});
   for (const NearSymmetry& one : model.near_symmetries.items) {
     out.put_matrix(Eigen::Matrix4d(one.motion.matrix()));
@@ -135,6 +136,7 @@ Model get_model(ByteReader& in, int depth = 0) {
   model.center = get_vector(in);
   model.diagonal = in.get<float>();
   model.symmetries = get_symmetries(in);
+  model.shape_symmetries = get_symmetries(in);
   const auto near_symmetries = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < near_symmetries; ++i) {
     NearSymmetry& one = model.near_symmetries.items.emplace_back();

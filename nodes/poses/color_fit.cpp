@@ -2,7 +2,6 @@
 #include "nodes/poses/color_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -15,48 +14,60 @@ namespace {
 
 constexpr std::size_t kFewestPairs = 12;
 
-struct Pairs {
-  std::vector<Eigen::Vector3d> expected, seen;
-  std::vector<std::uint64_t> patches;  ///< that each lies in
-};
-
 /// The cube of a grid that a point of the model lies in.
-std::uint64_t patch_of(const Eigen::Vector3f& offset, float edge) {
-  std::uint64_t patch = 0;
+std::uint64_t cube_of(const Eigen::Vector3f& offset, float edge) {
+  std::uint64_t cube = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto cell = static_cast<std::int64_t>(std::floor(offset[axis] / edge));
-    patch = (patch << 21) | (static_cast<std::uint64_t>(cell) & 0x1FFFFFU);
+    cube = (cube << 21) | (static_cast<std::uint64_t>(cell) & 0x1FFFFFU);
   }
-  return patch;
+  return cube;
 }
 
-Pairs pairs_of(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Eigen::Index points) {
+/// Pairs of one place of the model: their sums. A print's letters are finer than the scan's points,
+/// the model's samples and what both are off by; of the mean over a place enough of them is left.
+struct Patch {
+  std::uint64_t cube = 0;
+  double count = 0;
+  Eigen::Vector3d expected = Eigen::Vector3d::Zero(), seen = Eigen::Vector3d::Zero();
+
+  void add(const Patch& other) {
+    count += other.count;
+    expected += other.expected;
+    seen += other.seen;
+  }
+};
+
+std::vector<Patch> pairs_of(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
+                            Eigen::Index points) {
   const Cloud& model = sought.model.cloud;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const float edge = static_cast<float>(sought.terms.color.patch) * sought.model.diagonal;
   const Eigen::Index stride = model.points.rows() / points + 1;
-  Pairs pairs;
+  std::vector<Patch> pairs;
   for (Eigen::Index i = 0; i < model.points.rows(); i += stride) {
     const geometry::OrientedPoint p = geometry::posed_point(model, i, T);
     if (!sought.scan.surface.faces_sensor(p)) continue;
     const auto row = sought.scan.surface.compatible_row(p, sought.params.tolerance);
     if (!row) continue;
-    pairs.expected.emplace_back(sought.look->lab.row(i).transpose().cast<double>());
-    pairs.seen.emplace_back(sought.scan.look.lab.row(*row).transpose().cast<double>());
-    pairs.patches.push_back(patch_of(model.points.row(i).transpose() - sought.model.center, edge));
+    pairs.push_back({cube_of(model.points.row(i).transpose() - sought.model.center, edge), 1,
+                     sought.look->lab.row(i).transpose().cast<double>(),
+                     sought.scan.look.lab.row(*row).transpose().cast<double>()});
   }
   return pairs;
 }
 
-Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& values) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-std::size_t count_distinct(std::vector<std::uint64_t> values) {
-  std::sort(values.begin(), values.end());
-  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+std::vector<Patch> gather(std::vector<Patch> pairs) {
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Patch& a, const Patch& b) { return a.cube < b.cube; });
+  std::vector<Patch> patches;
+  for (const Patch& pair : pairs) {
+    if (patches.empty() || patches.back().cube != pair.cube)
+      patches.push_back(pair);
+    else
+      patches.back().add(pair);
+  }
+  return patches;
 }
 
 double z_of(const ColorFit& fit) { return std::atanh(std::clamp(fit.likeness, -0.99, 0.99)); }
@@ -71,28 +82,30 @@ LookOf::LookOf(const Cloud& cloud) : lab(color::lab_of(cloud.colors)) {
 std::optional<ColorFit> measure_colors(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
                                        Eigen::Index points) {
   if (sought.look->lab.rows() == 0 || sought.scan.look.lab.rows() == 0) return std::nullopt;
-  const Pairs pairs = pairs_of(sought, T_scene_model, points);
-  if (pairs.expected.size() < kFewestPairs) return std::nullopt;
+  const std::vector<Patch> pairs = pairs_of(sought, T_scene_model, points);
+  if (pairs.size() < kFewestPairs) return std::nullopt;
   const ColorTerms& terms = sought.terms.color;
   ColorFit fit;
   fit.has_tint = sought.look->is_colorful && sought.scan.look.is_colorful;
   const double chroma = fit.has_tint ? 1 : 0;
   const Eigen::Vector3d weights(terms.lightness, chroma, chroma);
-  const Eigen::Vector3d expected = mean_of(pairs.expected), seen = mean_of(pairs.seen);
-  double together = 0, of_expected = 0, of_seen = 0;
-  for (std::size_t i = 0; i < pairs.expected.size(); ++i) {
-    const Eigen::Vector3d e = weights.cwiseProduct(pairs.expected[i] - expected);
-    const Eigen::Vector3d s = weights.cwiseProduct(pairs.seen[i] - seen);
-    together += e.dot(s);
-    of_expected += e.squaredNorm();
-    of_seen += s.squaredNorm();
+  Patch all;
+  for (const Patch& pair : pairs) all.add(pair);
+  const Eigen::Vector3d expected = all.expected / all.count, seen = all.seen / all.count;
+  double together = 0, of_expected = 0, of_seen = 0, squares = 0;
+  for (const Patch& patch : gather(pairs)) {
+    const Eigen::Vector3d e = weights.cwiseProduct(patch.expected / patch.count - expected);
+    const Eigen::Vector3d s = weights.cwiseProduct(patch.seen / patch.count - seen);
+    together += patch.count * e.dot(s);
+    of_expected += patch.count * e.squaredNorm();
+    of_seen += patch.count * s.squaredNorm();
+    squares += patch.count * patch.count;
   }
-  const auto count = static_cast<double>(pairs.expected.size());
   const double noise = terms.noise * terms.noise;  // so that a plain surface is like nothing
-  fit.patches = static_cast<double>(count_distinct(pairs.patches));
-  fit.contrast = std::sqrt(of_expected / count);
-  fit.likeness =
-      together / count / std::sqrt((of_expected / count + noise) * (of_seen / count + noise));
+  fit.patches = all.count * all.count / squares;   // as many as if all held as much (Kish 1965)
+  fit.contrast = std::sqrt(of_expected / all.count);
+  fit.likeness = together / all.count /
+                 std::sqrt((of_expected / all.count + noise) * (of_seen / all.count + noise));
   constexpr double kBlack = 16;  // added to L*, all three are proportional to the light's cube root
   if (fit.has_tint)
     fit.tint = seen.tail<2>() * ((expected[0] + kBlack) / (seen[0] + kBlack)) - expected.tail<2>();
@@ -105,18 +118,19 @@ double color_lead(const std::optional<ColorFit>& a, const std::optional<ColorFit
   return (z_of(*a) - z_of(*b)) * std::sqrt(independent / 2);
 }
 
-// Both are log odds of the colours being the object's rather than anybody's, under a normal
-// distribution. Likeness: of values that correlate as much as the object's contrast allows over the
-// scatter that true poses have, against values that do not at all; nothing, where the object is
-// plain. Tint: of a mean that light and camera shift, against any.
+// Both are log odds of the colours being the object's rather than anybody's, under normal
+// distributions. Likeness: its z (Fisher's) about what true poses have, less the plainer the object
+// is, against none, both with what chance and the world's doings scatter. Tint: of a mean that light
+// and camera shift, against any.
 ColorClues color_clues_of(const ColorFit& fit, const Eigen::Vector2d& usual_tint,
                           const ColorTerms& terms) {
   const double contrast = fit.contrast * fit.contrast;
-  const double shared = contrast / (contrast + terms.scatter * terms.scatter);  // correlation^2
-  const double per_patch =
-      -0.5 * std::log1p(-shared) - (shared - std::sqrt(shared) * fit.likeness) / (1 - shared);
+  const double usual =
+      std::atanh(terms.usual_likeness * contrast / (contrast + terms.plain * terms.plain));
+  const double spread =
+      terms.likeness_spread * terms.likeness_spread + 1 / std::max(1.0, fit.patches - 3);
   ColorClues clues;
-  clues.likeness = std::clamp(std::min(fit.patches, terms.most_patches) * per_patch, -10.0, 10.0);
+  clues.likeness = usual * (z_of(fit) - usual / 2) / spread;
   if (!fit.has_tint) return clues;
   const double off = (fit.tint - usual_tint).squaredNorm();
   const double own = terms.tint * terms.tint, any = terms.any_tint * terms.any_tint;

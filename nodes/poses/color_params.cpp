@@ -31,12 +31,17 @@ void add_color_terms(Node& node) {
        "Model points that judge such a turn. Time grows with it.", in_range(20, 1000000));
   term("color_look_points", &G::look_points, "points",
        "Model points that judge the colours of a pose.", in_range(20, 1000000));
-  term("color_scatter", &G::scatter, "CIELAB",
-       "Deviation of what is seen from what is expected, of true poses. Larger asks less likeness "
-       "of them.",
+  term("color_usual_likeness", &G::usual_likeness, "correlation",
+       "Of what is seen and expected, of true poses of objects of much contrast: 0.3 to 0.85 on "
+       "RGB-D images of packages.",
+       in_range(0.01, 0.99));
+  term("color_likeness_spread", &G::likeness_spread, "z",
+       "Deviation of Fisher's z of the likeness beside what so few places scatter by: gloss, "
+       "shadows, a print that changed.",
        greater_than(0));
-  term("color_most_patches", &G::most_patches, "places",
-       "More do not make the likeness more certain: they err alike.", greater_than(0));
+  term("color_plain", &G::plain, "CIELAB",
+       "Deviation of an object's colours at which half of that likeness is to be expected.",
+       greater_than(0));
   term("color_tint", &G::tint, "CIELAB",
        "Deviation of the mean chromaticity, of true poses: light and camera.", greater_than(0));
   term("color_any_tint", &G::any_tint, "CIELAB", "And of any surface's.", greater_than(0));

@@ -24,8 +24,8 @@ struct Tried {
 
 class Turner {
  public:
-  Turner(const Sought& sought, const Candidate& candidate)
-      : sought_(sought), symmetries_(sought.model.symmetries), origin_(candidate.T_scene_model) {}
+  Turner(const Sought& sought, const Symmetries& symmetries, const Candidate& candidate)
+      : sought_(sought), symmetries_(symmetries), origin_(candidate.T_scene_model) {}
 
   Tried with(const Eigen::Quaterniond& turn, Eigen::Index points) const {
     const Eigen::Isometry3d T = origin_ * about(symmetries_.fixed_point, turn);
@@ -78,8 +78,8 @@ class Turner {
 void turn_by_color(const Sought& sought, Candidate& candidate) {
   const ColorTerms& terms = sought.terms.color;
   candidate.colors = measure_colors(sought, candidate.T_scene_model, terms.look_points);
-  if (!candidate.colors || !sought.model.symmetries.any()) return;
-  const Turner turner(sought, candidate);
+  if (!candidate.colors || !sought.model.shape_symmetries.any()) return;
+  const Turner turner(sought, sought.model.shape_symmetries, candidate);
   Tried best = turner.with(turner.best(), terms.look_points);
   if (color_lead(best.colors, candidate.colors) <= 0) return;  // shape says nothing of it
   candidate.T_scene_model = best.T_scene_model;
@@ -89,7 +89,7 @@ void turn_by_color(const Sought& sought, Candidate& candidate) {
 Symmetries symmetries_left(const Sought& sought, const Candidate& candidate) {
   const Symmetries& all = sought.model.symmetries;
   if (!candidate.colors || !all.any()) return all;
-  const Turner turner(sought, candidate);
+  const Turner turner(sought, all, candidate);
   const auto is_as_good = [&](const Eigen::Quaterniond& turn) {
     const Tried turned = turner.with(turn, sought.terms.color.look_points);
     return turned.colors &&

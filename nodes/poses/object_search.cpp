@@ -106,6 +106,8 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
       continue;
     }
     Candidate best = best_alike(sought_, *candidate, taken_);
+    for (auto rival = std::next(candidate); rival != end; ++rival)
+      if (is_better_by_color(sought_, *rival, best)) best = *rival;
     if (is_convincing(sought_, best)) return best;
   }
   if (!first) return std::nullopt;

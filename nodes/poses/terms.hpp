@@ -65,7 +65,8 @@ struct ColorTerms {
   double err_alike = 8;    ///< points
   double step = 12;        ///< of turns about an axis [deg]
   int glance_points = 300, look_points = 1000;
-  double scatter = 12, most_patches = 20, tint = 9, any_tint = 25;
+  double usual_likeness = 0.6, likeness_spread = 0.25, plain = 8;
+  double tint = 9, any_tint = 25;
   double offset = 0;  ///< log odds
   ColorClues weights{0, 0};
 };

@@ -50,6 +50,15 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
   return best;
 }
 
+bool is_better_by_color(const Sought& sought, const Candidate& rival, const Candidate& best) {
+  const auto center = [&](const Candidate& candidate) {
+    return posed_center(candidate.T_scene_model, sought.model.center);
+  };
+  return color_lead(rival.colors, best.colors) > sought.terms.twins.telling &&
+         rival.confidence > best.confidence &&
+         (center(rival) - center(best)).norm() < sought.params.nms_radius;
+}
+
 double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {
   const auto weigh = [&](const std::vector<std::uint32_t>& points, const Candidate& candidate) {
     return weigh_points(sought.model.cloud, points, sought.scan.surface, sought.scan.view,

@@ -14,6 +14,10 @@ namespace posevote::poses {
 /// They share the hypothesis that proposed it; those at taken places do not compete.
 Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken);
 
+/// Whether colours tell a refined pose from another one of the same place, and the whole of what is
+/// known makes it more probable: a carton that lies as well on any of its sides.
+bool is_better_by_color(const Sought& sought, const Candidate& rival, const Candidate& best);
+
 /// How much more the scan speaks for a twin than for the pose that a near symmetry made it of,
 /// where they differ, in standard deviations, were the points independent.
 double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin);

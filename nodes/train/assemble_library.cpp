@@ -35,7 +35,8 @@ struct Params : descriptors::IndexOptions {
 struct Part {
   const Cloud& cloud;
   const FeatureSet& features;
-  const Symmetries& symmetries;
+  const Symmetries& symmetries;        ///< of the finest
+  const Symmetries& shape_symmetries;  ///< of this octave
   const NearSymmetries& near_symmetries;
   const Outline& outline;
   const Scale& scale;
@@ -53,6 +54,7 @@ Model shape_of(const ModelFile& file, const Mesh& mesh, const Part& part) {
   model.center = (0.5F * (low + high)).transpose();
   model.diagonal = (high - low).norm();
   model.symmetries = file.symmetries.value_or(part.symmetries);
+  model.shape_symmetries = part.shape_symmetries;
   model.near_symmetries = part.near_symmetries;
   model.outline = part.outline;
   return model;
@@ -123,8 +125,8 @@ ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& me
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<Part> parts;
     for (std::size_t slot = i; slot < octaves.size(); slot += count)
-      parts.push_back({clouds[slot], features[slot], symmetries[i], near_symmetries[slot],
-                       outlines[slot], octaves[slot]});
+      parts.push_back({clouds[slot], features[slot], symmetries[i], symmetries[slot],
+                       near_symmetries[slot], outlines[slot], octaves[slot]});
     library.models.push_back(
         std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts, params)));
   }

@@ -23,7 +23,8 @@ struct Lamp {
 struct Lighting {
   std::array<Lamp, 2> lamps;
   Vector3f ambient;
-  Vector3f gain;  ///< of the camera: exposure and white balance
+  Vector3f gain;          ///< of the camera: exposure and white balance
+  Eigen::Vector2d shift;  ///< of the image against the ranges [pixels]
 };
 
 Vector3f whitish(Random& random, double strength) {
@@ -44,6 +45,8 @@ Lighting any_lighting(const Eigen::Isometry3d& T_world_sensor, Random& random) {
   const double exposure = std::exp2(random.uniform(-1, 1));
   for (int k = 0; k < 3; ++k)
     lighting.gain[k] = static_cast<float>(exposure * random.uniform(0.85, 1.15));
+  constexpr double kRegistered = 1;
+  lighting.shift = kRegistered * Eigen::Vector2d(random.normal(), random.normal());
   return lighting;
 }
 
@@ -88,8 +91,9 @@ ColorImage photograph(const std::vector<Body>& bodies, const Sensor& sensor,
       for (const double du : {-0.25, 0.25})
         for (const double dv : {-0.25, 0.25}) {
           const Camera& camera = sensor.camera;
-          const Vector3d ray((static_cast<double>(u) + du - camera.cx) / camera.fx,
-                             (static_cast<double>(v) + dv - camera.cy) / camera.fy, 1);
+          const Vector3d ray(
+              (static_cast<double>(u) + du + lighting.shift.x() - camera.cx) / camera.fx,
+              (static_cast<double>(v) + dv + lighting.shift.y() - camera.cy) / camera.fy, 1);
           const auto hit = caster.first_hit(ray);
           if (!hit) continue;
           const Vector3d place = T_body_sensor[hit->body] * (hit->distance * ray);

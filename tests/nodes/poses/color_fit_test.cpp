@@ -104,7 +104,7 @@ TEST_CASE("clues of colours speak for what is like and against what is not", "[p
   CHECK(clues(40).tint < -3);
   CHECK(clues(40, 40).tint > 1);  // as the others in this light
   fit.likeness = 0;
-  CHECK(clues(0).likeness < -3);
+  CHECK(clues(0).likeness < -2);
   fit.contrast = 0.5;  // a plain thing is like nothing, and needs not be
   CHECK(std::abs(clues(0).likeness) < 0.1);
 }
@@ -123,9 +123,10 @@ TEST_CASE("the usual tint is that of what was found", "[poses][color]") {
 
 TEST_CASE("of turns after which the shape is the same, colours choose", "[poses][color]") {
   Painted setting;
-  Symmetries& symmetries = setting.body.model.symmetries;
+  Symmetries symmetries;
   symmetries.fixed_point = setting.body.model.center;
   symmetries.axes = {Eigen::Vector3f::UnitZ()};
+  setting.body.model.symmetries = setting.body.model.shape_symmetries = symmetries;
   const auto turned = [&](double angle) {
     const Eigen::Vector3d center = setting.body.model.center.cast<double>();
     return setting.body.candidate(kBody.T_scene_model * Eigen::Translation3d(center) *
