@@ -48,6 +48,10 @@ void add_color_terms(Node& node) {
   term("confidence_color_offset", &G::offset, "log odds",
        "Confidence that colours add whatever they say. Found by posevote calibrate --colors.",
        in_range(-1e6, 1e6));
+  term("confidence_color_doubt", &G::doubt, "",
+       "Share of detections of which colours say nothing: the picture is of another moment, the "
+       "print of another year. The logarithm is the most that colours can take from the log odds.",
+       in_range(1e-6, 1));
   const auto weight = [&](const char* name, double ColorClues::*clue) {
     node.expert_param(
         name, [clue](SegmentParams& params) -> double& { return params.terms.color.weights.*clue; },

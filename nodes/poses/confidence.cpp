@@ -44,8 +44,11 @@ double log_odds_of(const Clues& clues, const ConfidenceTerms& terms) {
   return log_odds;
 }
 
+// A mixture: at times colours are those of another moment, light or print, and say nothing.
 double log_odds_of(const ColorClues& clues, const ColorTerms& terms) {
-  return terms.offset + terms.weights.likeness * clues.likeness + terms.weights.tint * clues.tint;
+  const double told =
+      terms.offset + terms.weights.likeness * clues.likeness + terms.weights.tint * clues.tint;
+  return std::log((1 - terms.doubt) * std::exp(told) + terms.doubt);
 }
 
 double probability_of(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
