@@ -7,14 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/problem.hpp"
-#include "nodes/color/srgb.hpp"
-#include "nodes/color/texture_color.hpp"
 #include "nodes/formats/color_image.hpp"
 #include "nodes/formats/depth_image.hpp"
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/geometry/nearest_index.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/tools/seen_colors.hpp"
 #include "tools/simulate/shapes.hpp"
 #include "tools/simulate/spec.hpp"
 
@@ -68,41 +67,14 @@ TEST_CASE("a painted set has the same geometry, and colours that agree", "[simul
   const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "painted", "test");
   const layouts::TrueInstance& carton = truth.instances.back();
   const Camera camera = *truth.images.at({1, 1}).camera;
-  // Green of the model, and as seen; less the mean of each side, which has its own share of light.
-  std::map<std::array<long, 3>, std::vector<Eigen::RowVector2d>> sides;
-  for (Eigen::Index face = 0; face < model.faces.rows(); ++face)
-    for (int i = 1; i < 64; ++i) {
-      const Eigen::RowVector3f weights(static_cast<float>(i % 8) / 16,
-                                       static_cast<float>(i / 8) / 16,
-                                       1 - static_cast<float>(i % 8 + i / 8) / 16);
-      Eigen::Matrix3d corners;
-      for (int k = 0; k < 3; ++k)
-        corners.col(k) = model.points.row(model.faces(face, k)).transpose().cast<double>();
-      const Eigen::Vector3d normal =
-          carton.T_scene_model.linear() *
-          (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
-      const Eigen::Vector3d place =
-          carton.T_scene_model * Eigen::Vector3d(corners * weights.transpose().cast<double>());
-      if (normal.normalized().dot(-place.normalized()) < 0.3) continue;
-      const double u = camera.fx * place.x() / place.z() + camera.cx;
-      const double v = camera.fy * place.y() / place.z() + camera.cy;
-      const std::size_t pixel = static_cast<std::size_t>(std::lround(v)) * image.width +
-                                static_cast<std::size_t>(std::lround(u));
-      const Eigen::Vector3d way = 4 * normal.normalized();
-      sides[{std::lround(way.x()), std::lround(way.y()), std::lround(way.z())}].emplace_back(
-          color::face_color(model, model.faces.row(face), weights)[1],
-          color::linear_of(image.values.at(3 * pixel + 1)));
-    }
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  std::size_t pairs = 0;
-  for (const auto& [way, colors] : sides) {
-    Eigen::RowVector2d mean = Eigen::RowVector2d::Zero();
-    for (const auto& pair : colors) mean += pair / static_cast<double>(colors.size());
-    for (const auto& pair : colors) spread += (pair - mean).transpose() * (pair - mean);
-    pairs += colors.size();
-  }
-  REQUIRE(pairs > 100);
-  CHECK(spread(0, 1) / std::sqrt(spread(0, 0) * spread(1, 1)) > 0.7);
+  // By green of the model and as seen, less the mean of each side, which has its own share of light;
+  // the image is registered to a pixel or two.
+  double likeness = -1;
+  for (const double du : {-3, -2, -1, 0, 1, 2, 3})
+    for (const double dv : {-3, -2, -1, 0, 1, 2, 3})
+      likeness =
+          std::max(likeness, likeness_of(model, carton.T_scene_model, camera, image, du, dv));
+  CHECK(likeness > 0.7);
 }
 
 TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simulate]") {
