@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace posevote::graph {
 
@@ -18,12 +19,27 @@ Trace::Trace(const std::vector<std::string>& nodes) {
 }
 
 void Trace::write_to(const std::filesystem::path& file) {
-  file_.open(file, std::ios::binary | std::ios::trunc);
-  writing_ = true;
-  file_ << "{\"displayTimeUnit\": \"ms\", \"traceEvents\": [";
+  try {
+    file_.emplace(file, OutputFile::Start::kAnew);
+  } catch (const std::runtime_error& error) {
+    problem_ = error.what();
+  }
+  write("{\"displayTimeUnit\": \"ms\", \"traceEvents\": [");
+}
+
+/// It is a help, not the results: what goes wrong is said in the end.
+void Trace::write(const std::string& text) {
+  if (!file_) return;
+  try {
+    file_->write(text);
+  } catch (const std::runtime_error& error) {
+    problem_ = error.what();
+    file_.reset();
+  }
 }
 
 void Trace::add(const std::string& frame, const std::vector<Span>& spans) {
+  std::string events;
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const Span& span = spans[i];
     if (!span.ran()) continue;
@@ -31,7 +47,7 @@ void Trace::add(const std::string& frame, const std::vector<Span>& spans) {
     ++times.calls;
     times.total += span.seconds();
     times.max = std::max(times.max, span.seconds());
-    if (!writing_) continue;
+    if (!file_) continue;
     const nlohmann::json event = {{"name", times.node},
                                   {"cat", "node"},
                                   {"ph", "X"},
@@ -41,17 +57,21 @@ void Trace::add(const std::string& frame, const std::vector<Span>& spans) {
                                   {"tid", span.thread},
                                   {"args", {{"frame", frame}}}};
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // names may not be UTF-8
-    file_ << (first_ ? "\n" : ",\n") << event.dump(-1, ' ', false, kReplace);
+    events += (first_ ? "\n" : ",\n") + event.dump(-1, ' ', false, kReplace);
     first_ = false;
   }
+  write(events);
 }
 
-bool Trace::close() {
-  if (!writing_) return true;
-  writing_ = false;
-  file_ << "\n]}\n";
-  file_.close();
-  return file_.good();
+std::string Trace::close() {
+  write("\n]}\n");
+  try {
+    if (file_) file_->close();
+  } catch (const std::runtime_error& error) {
+    problem_ = error.what();
+  }
+  file_.reset();
+  return problem_;
 }
 
 std::string time_table(const std::vector<NodeTimes>& times) {

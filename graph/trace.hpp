@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "graph/output_file.hpp"
 #include "graph/span.hpp"
 
 namespace posevote::graph {
@@ -36,13 +37,15 @@ class Trace {
 
   void add(const std::string& frame, const std::vector<Span>& spans);
   const std::vector<NodeTimes>& times() const { return times_; }
-  /// Completes the file; false if it could not be written in full.
-  bool close();
+  /// Completes the file; says why it could not be written in full, or "".
+  std::string close();
 
  private:
   std::vector<NodeTimes> times_;
-  std::ofstream file_;
-  bool writing_ = false;
+  void write(const std::string& text);
+
+  std::optional<OutputFile> file_;  ///< until it is complete, or cannot be written
+  std::string problem_;
   bool first_ = true;
 };
 

@@ -1,62 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph/write_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "graph/output_file.hpp"
 
 namespace posevote::graph {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kUnfinished = ".tmp";
+
 /// A name in the same folder that nobody else writes at the same time.
 fs::path unique_neighbour(const fs::path& file) {
   std::random_device random;
   std::ostringstream suffix;
-  suffix << "." << std::hex << random() << random() << ".tmp";
+  suffix << "." << std::hex << random() << random() << kUnfinished;
   return file.string() + suffix.str();
 }
 
-/// 0, or the errno of what failed; -1 where that said nothing.
-int put(const fs::path& file, std::string_view bytes) {
-  const auto problem = [] { return errno != 0 ? errno : -1; };
-  errno = 0;
-  std::FILE* stream = std::fopen(file.c_str(), "wb");
-  if (!stream) return problem();
-  int error = 0;
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stream) != bytes.size()) error = problem();
-  errno = 0;
-  if (std::fclose(stream) != 0 && error == 0) error = problem();
-  return error;
+/// One that unique_neighbour has made.
+bool is_unfinished(const fs::path& file) {
+  const std::string random = file.stem().extension().string();
+  return file.extension() == kUnfinished && random.size() > 1 &&
+         random.find_first_not_of("0123456789abcdef", 1) == std::string::npos;
 }
 
-/// 0, or the errno of what failed.
-int sync(const fs::path& file) {
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return errno;
-  const int error = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
-  close(descriptor);
-  return error;
+void put(const fs::path& file, std::string_view bytes, bool durably, const fs::path& name) {
+  OutputFile out(file, OutputFile::Start::kAnew, name);
+  out.write(bytes);
+  if (durably) out.sync();
+  out.close();
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::string& cause) {
   throw std::runtime_error(file.string() + ": cannot be written: " + cause);
 }
-
-}  // namespace
-
-std::string cause_of(int error) {
-  return error > 0 ? std::strerror(error) : "the system gives no cause; is the disk full?";
-}
-
-namespace {
 
 void write(const fs::path& link, std::string_view bytes, bool durably) {
   std::error_code problem;
@@ -65,22 +49,17 @@ void write(const fs::path& link, std::string_view bytes, bool durably) {
   if (problem && is_link) fail(link, problem.message());
   const fs::file_status status = fs::status(file, problem);
   if (fs::is_directory(status)) fail(link, "is a folder");
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    if (const int error = put(file, bytes)) fail(link, cause_of(error));
-    return;
-  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) return put(file, bytes, false, link);
   const fs::path temporary = unique_neighbour(file);
-  int error = put(temporary, bytes);
-  if (error == 0 && durably) error = sync(temporary);
-  problem.clear();
-  if (error == 0) fs::rename(temporary, file, problem);
-  if (error == 0 && !problem) {
-    if (durably) sync(file.has_parent_path() ? file.parent_path() : ".");
-    return;
+  try {
+    put(temporary, bytes, durably, link);
+    fs::rename(temporary, file, problem);
+    if (problem) fail(link, problem.message());
+  } catch (const std::runtime_error&) {
+    fs::remove(temporary, problem);
+    throw;
   }
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
-  fail(link, error != 0 ? cause_of(error) : problem.message());
+  if (durably) sync_file(file.has_parent_path() ? file.parent_path() : ".");
 }
 
 }  // namespace
@@ -89,8 +68,10 @@ void write_file(const fs::path& file, std::string_view bytes) { write(file, byte
 
 void write_durably(const fs::path& file, std::string_view bytes) { write(file, bytes, true); }
 
-void sync_file(const fs::path& file) {
-  if (const int error = sync(file)) fail(file, cause_of(error));
+void remove_unfinished(const fs::path& folder) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (is_unfinished(entry.path())) fs::remove(entry.path(), none);
 }
 
 }  // namespace posevote::graph

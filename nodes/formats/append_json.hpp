@@ -2,32 +2,33 @@
 // A JSON list in a file that is valid JSON after every item: batches run for hours and get killed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
+#include <vector>
 
 namespace posevote::formats {
 
-/// Writes `head`, items, each on a line of its own, and a tail. Every append overwrites the old
-/// tail with the item and a new tail. A write that fails (full disk) throws std::runtime_error
-/// naming the file, which then holds what it held before.
+/// The text of such a file: `head`, which ends with "[", items, each on a line of its own, and a
+/// tail.
+std::string json_list(const std::string& head, const std::vector<std::string>& items,
+                      const std::string& tail);
+
+/// Every append overwrites the old tail with the item and a new tail, and closes the file, for there
+/// are file systems that say only then whether they have room. A write that fails (full disk) throws
+/// std::runtime_error naming the file, which then holds what it held before.
 class AppendJson {
  public:
-  /// Starts the file anew.
-  AppendJson(std::filesystem::path file, const std::string& head, std::string tail);
-  /// Goes on with a file that another AppendJson has left with that tail.
+  /// Goes on with a file that is there and ends with that tail.
   AppendJson(std::filesystem::path file, std::string tail);
 
   void append(const std::string& item, const std::string& tail);
   void append(const std::string& item) { append(item, tail_); }
 
  private:
-  void put(const std::string& text);
-
   std::filesystem::path file_;
-  std::fstream stream_;
   std::string tail_;
-  std::streamoff end_ = 0;  ///< where the tail begins
+  std::uint64_t end_ = 0;  ///< where the tail begins
   bool empty_ = true;
 };
 

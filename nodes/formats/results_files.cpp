@@ -2,11 +2,11 @@
 #include "nodes/formats/results_files.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
+#include "graph/output_file.hpp"
 #include "graph/parallel.hpp"
 #include "graph/write_file.hpp"
 #include "nodes/formats/json_text.hpp"
@@ -102,36 +102,18 @@ void put_in_order(std::vector<ordered_json>& frames) {
   frames.erase(std::unique(frames.begin(), frames.end(), same), frames.end());
 }
 
-/// Beside the old file, so that a crash loses nothing of it.
-fs::path beside(const fs::path& file) { return file.string() + ".new"; }
-
-void take_place(const fs::path& file) {
-  graph::sync_file(beside(file));
-  fs::rename(beside(file), file);
-}
-
 void write_table(const fs::path& out, const TableFormat& table,
                  const std::vector<ordered_json>& frames) {
-  const fs::path file = out / table.file;
-  {
-    std::ofstream rows(beside(file), std::ios::binary | std::ios::trunc);
-    rows << table.header;
-    for (const ordered_json& frame : frames) rows << table.rows(frame);
-    rows << std::flush;
-    if (!rows)
-      throw std::runtime_error(beside(file).string() +
-                               ": cannot be written: " + graph::cause_of(errno));
-  }
-  take_place(file);
+  std::string text = table.header;
+  for (const ordered_json& frame : frames) text += table.rows(frame);
+  graph::write_durably(out / table.file, text);
 }
 
 void write_list(const fs::path& file, const std::string& head, const std::string& tail,
                 const std::vector<ordered_json>& frames) {
-  {
-    AppendJson list(beside(file), head, tail);
-    for (const ordered_json& frame : frames) list.append(record(frame));
-  }
-  take_place(file);
+  std::vector<std::string> items;
+  for (const ordered_json& frame : frames) items.push_back(record(frame));
+  graph::write_durably(file, json_list(head, items, tail));
 }
 
 void sync_all(const fs::path& out, const std::vector<std::string>& formats) {
@@ -193,7 +175,6 @@ void write_content(const fs::path& out, RunContent content,
     write_list(out / kResults, results_head(content.left_out), results_tail(content.nodes),
                content.frames);
   write_list(out / kFailures, "[", kFailuresTail, content.failures);
-  graph::sync_file(out);
 }
 
 void begin_results(const fs::path& out, const Batch& batch) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/formats/results_writer.hpp"
 
-#include <cerrno>
 #include <stdexcept>
 
-#include "graph/write_file.hpp"
+#include "graph/output_file.hpp"
 #include "nodes/formats/json_text.hpp"
 #include "nodes/formats/results_tables.hpp"
 
@@ -16,20 +15,22 @@ using nlohmann::ordered_json;
 
 constexpr std::chrono::seconds kSyncInterval{1};
 
-void require(const std::ostream& stream, const fs::path& file) {
-  if (!stream)
-    throw std::runtime_error(file.string() + ": cannot be written: " + graph::cause_of(errno));
-}
-
 }  // namespace
 
 ResultsTable::ResultsTable(fs::path file, Rows rows)
-    : file_(std::move(file)), stream_(file_, std::ios::binary | std::ios::app), rows_(rows) {}
+    : file_(std::move(file)), end_(fs::file_size(file_)), rows_(rows) {}
 
 void ResultsTable::append(const ordered_json& frame) {
-  errno = 0;
-  stream_ << rows_(frame) << std::flush;
-  require(stream_, file_);
+  const std::string rows = rows_(frame);
+  graph::OutputFile out(file_, graph::OutputFile::Start::kThere);
+  try {
+    out.write_at(end_, rows);
+  } catch (const std::runtime_error&) {
+    out.cut(end_);
+    throw;
+  }
+  out.close();
+  end_ += rows.size();
 }
 
 ResultsWriter::ResultsWriter(const fs::path& out, const std::vector<std::string>& formats)

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,13 +33,13 @@ class ResultsTable {
 
   /// Goes on with a file that begin_results has made.
   ResultsTable(std::filesystem::path file, Rows rows);
-  /// Throws std::runtime_error where the file cannot be written.
+  /// Throws std::runtime_error where the file cannot be written; it then holds what it held before.
   void append(const nlohmann::ordered_json& frame);
   const std::filesystem::path& file() const { return file_; }
 
  private:
   std::filesystem::path file_;
-  std::ofstream stream_;
+  std::uint64_t end_;
   Rows rows_;
 };
 

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
+#include "graph/write_file.hpp"
 #include "nodes/pictures/disc_kernel.hpp"
 
 namespace posevote::pictures {
@@ -154,7 +156,6 @@ void Canvas::text(int x, int y, int size, const std::string& words, const Colour
 }
 
 void Canvas::save(const std::filesystem::path& png) const {
-  const std::filesystem::path temporary = png.string() + ".part";
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width_);
@@ -166,15 +167,11 @@ void Canvas::save(const std::filesystem::path& png) const {
   for (std::size_t i = 0; i < pixels_.size() - kDiscPadding; ++i)
     for (int shift = 0; shift < 24; shift += 8)
       bytes.push_back(static_cast<std::uint8_t>(pixels_[i] >> shift));
-  std::string problem;
-  if (png_image_write_to_file(&image, temporary.c_str(), 0, bytes.data(), 0, nullptr) == 0)
-    problem = image.message;
-  std::error_code error;
-  if (problem.empty()) std::filesystem::rename(temporary, png, error);
-  if (error) problem = error.message();
-  if (problem.empty()) return;
-  std::filesystem::remove(temporary, error);
-  throw std::runtime_error(png.string() + ": cannot be written: " + problem);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string file(size, '\0');
+  if (png_image_write_to_memory(&image, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0)
+    throw std::runtime_error(png.string() + ": cannot be written: " + image.message);
+  graph::write_file(png, std::string_view(file).substr(0, size));
 }
 
 Colour distinct_colour(std::size_t i) {

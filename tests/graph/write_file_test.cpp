@@ -11,7 +11,6 @@
 
 using namespace posevote;
 using Catch::Contains;
-using graph::sync_file;
 using graph::write_durably;
 using graph::write_file;
 using test::read_text;
@@ -57,9 +56,6 @@ TEST_CASE("what is to outlast a loss of power is written the same way", "[write_
     CHECK_THROWS_WITH(write_durably(file, std::string(1000, 'x')), Contains("a.txt: cannot be"));
   }
   CHECK(read_text(file) == "old");
-  CHECK_NOTHROW(sync_file(file));
-  CHECK_NOTHROW(sync_file(folder.path()));
-  CHECK_THROWS_WITH(sync_file(folder / "none"), Contains("none: cannot be written: No such file"));
 }
 
 TEST_CASE("links lead to what is written, and what is no plain file stays what it is",
@@ -78,5 +74,14 @@ TEST_CASE("links lead to what is written, and what is no plain file stays what i
                     Contains("no/where: cannot be written: No such file or directory"));
   fs::create_symlink("loop", folder / "loop");
   CHECK_THROWS_WITH(write_file(folder / "loop", "x"), Contains("loop: cannot be written: "));
-  CHECK_THAT(graph::cause_of(0), !Contains("Success"));
+}
+
+TEST_CASE("what a killed process left of a file is taken away, and nothing else", "[write_file]") {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a.ply.1f2e.tmp", "a.tmp", "a.ply.scan.tmp", "1f2e.tmp", "a.1f2e"})
+    folder.write(name, "x");
+  graph::remove_unfinished(folder.path());
+  CHECK_FALSE(fs::exists(folder / "a.ply.1f2e.tmp"));
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 4);
+  CHECK_NOTHROW(graph::remove_unfinished(folder / "none"));
 }

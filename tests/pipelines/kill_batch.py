@@ -10,11 +10,13 @@ import argparse
 import json
 import pathlib
 import random
-import re
 import shutil
 import subprocess
 import sys
 import time
+
+import batch_runs
+from batch_runs import without_times
 
 
 def arguments():
@@ -29,24 +31,10 @@ def arguments():
     return parser.parse_args()
 
 
-def make_scans(options):
-    folder = options.work / "scans"
-    folder.mkdir(parents=True)
-    for i in range(options.count):
-        source = pathlib.Path(options.scans[i % len(options.scans)])
-        target = folder / f"{i:04}{source.suffix}"
-        if i % 10 == 9:
-            target.write_text("broken")
-        else:
-            target.symlink_to(source.resolve())
-    return folder
-
-
 def start(options, scans, out):
-    command = [options.posevote, "run", "demo", "--models", options.models, "--scenes", str(scans)]
-    command += ["--out", str(out), "--cache", str(options.work / "cache")]
-    command += ["--set", "write_picture.every=0", "--set", "write_overlay.every=0", "--quiet"]
-    return subprocess.Popen(command + ["--resume"], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
+    pictures = ["--set", "write_picture.every=0", "--set", "write_overlay.every=0"]
+    return batch_runs.start(options.posevote, options.models, scans, out, options.work / "cache",
+                            pictures)
 
 
 def finish(run):
@@ -60,21 +48,11 @@ def status(options, out):
     return json.loads(said.stdout)["runs"][0] if said.returncode == 0 else None
 
 
-def without_times(out):
-    rows = re.sub(r",[^,\n]*\n", "\n", (out / "results.csv").read_text())
-    frames = json.loads((out / "results.json").read_text())["frames"]
-    for frame in frames:
-        for key in ("seconds", "stages", "checksum"):
-            del frame[key]
-        for found in frame["detections"] + frame["rejected"]:
-            del found["seconds"]
-    return rows, frames, (out / "detections.csv").read_text(), (out / "failures.json").read_text()
-
-
 def main():
     options = arguments()
     chance = random.Random(options.seed)
-    scans = make_scans(options)
+    scans = batch_runs.make_scans(options.work / "scans", options.scans, options.count,
+                                  is_broken=lambda i: i % 10 == 9)
     began = time.monotonic()
     finish(start(options, scans, options.work / "whole"))
     whole = time.monotonic() - began

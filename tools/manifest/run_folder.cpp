@@ -67,6 +67,9 @@ void remove_run(const fs::path& out) {
 void begin_run(const RunCommand& command, const Configuration& configuration,
                const ModelLibrary& library, Manifest manifest, std::vector<SceneEntry>& scenes) {
   if (command.overwrite) remove_run(command.out);
+  graph::remove_unfinished(command.out);
+  for (const char* folder : kFoldersOfFrames)
+    graph::remove_unfinished(fs::path(command.out) / folder);
   if (const auto formats = result_formats(configuration)) {
     formats::Batch batch{{}, {}, library.left_out, *formats};
     for (const SceneEntry& scene : manifest.scans) batch.scans[scene.number] = scene.file;

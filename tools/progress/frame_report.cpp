@@ -76,7 +76,7 @@ void FrameReport::add(const graph::FrameResult<Detections>& result) {
 }
 
 void FrameReport::finish() {
-  if (!trace_.close()) spdlog::warn("{}/trace.json could not be written in full", command_.out);
+  if (const std::string problem = trace_.close(); !problem.empty()) spdlog::warn("{}", problem);
   if (command_.verbose) std::cout << "\n" << graph::time_table(trace_.times());
 }
 

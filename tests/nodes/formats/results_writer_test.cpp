@@ -177,7 +177,8 @@ TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[writ
 
 TEST_CASE("a full disk keeps what is written and names the file", "[write]") {
   const TemporaryFolder folder;
-  formats::AppendJson list(folder / "list.json", "[", "\n]\n");
+  folder.write("list.json", formats::json_list("[", {}, "\n]\n"));
+  formats::AppendJson list(folder / "list.json", "\n]\n");
   list.append("1");
   const std::string before = read_text(folder / "list.json");
   // A file-size limit stands in for the full disk: writes beyond it fail with an error.
