@@ -19,6 +19,7 @@
 
 using namespace posevote;
 using Catch::Contains;
+using posevote::test::likeness_of;
 using posevote::test::read_text;
 using posevote::test::TemporaryFolder;
 namespace fs = std::filesystem;
