@@ -41,9 +41,9 @@ class Trace {
   std::string close();
 
  private:
-  std::vector<NodeTimes> times_;
   void write(const std::string& text);
 
+  std::vector<NodeTimes> times_;
   std::optional<OutputFile> file_;  ///< until it is complete, or cannot be written
   std::string problem_;
   bool first_ = true;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <csignal>
+#include <limits>
 #include <thread>
 
 #include "graph/schema.hpp"
@@ -67,6 +68,29 @@ void add_set(CLI::App& app, std::vector<std::string>& set) {
   app.add_option("--set", set, "Override one parameter: node.param=value (repeatable)")
       ->type_name("NODE.PARAM=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App& app, std::size_t& threads) {
+  app.add_option("--threads", threads, "Threads; 0: all cores")
+      ->check(whole_number(kMostThreads))
+      ->capture_default_str();
+}
+
+void add_seed(CLI::App& app, std::uint64_t& seed) {
+  app.add_option("--seed", seed, "Seed of all randomness")
+      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+}
+
+void add_cache(CLI::App& app, std::string& cache) {
+  app.add_option("--cache", cache, "Folder for trained libraries; default ~/.cache/posevote")
+      ->type_name("DIR");
+}
+
+void add_targets(CLI::App& app, std::string& targets) {
+  app.add_option("--targets", targets,
+                 "Judge only these; default test_targets_bop19.json, if there; none: judge all")
+      ->type_name("FILE");
 }
 
 void add_json(CLI::App& app, bool& json) {

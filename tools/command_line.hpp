@@ -53,6 +53,18 @@ constexpr std::uint64_t kMostThreads = 1024;
 /// The option --set.
 void add_set(CLI::App& app, std::vector<std::string>& set);
 
+/// The option --threads.
+void add_threads(CLI::App& app, std::size_t& threads);
+
+/// The option --seed.
+void add_seed(CLI::App& app, std::uint64_t& seed);
+
+/// The option --cache.
+void add_cache(CLI::App& app, std::string& cache);
+
+/// The option --targets.
+void add_targets(CLI::App& app, std::string& targets);
+
 /// The flag --json; JsonAnswer (tools/json_answer.hpp) is what it asks for.
 void add_json(CLI::App& app, bool& json);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nodes/formats/json_text.hpp"
+#include "nodes/geometry/rotation.hpp"
 #include "nodes/library/content_hash.hpp"
 
 namespace posevote::formats {
@@ -29,8 +30,7 @@ ordered_json to_json(const Symmetries& symmetries) {
   ordered_json discrete = ordered_json::array(), continuous = ordered_json::array();
   for (std::size_t i = 1; i < symmetries.turns.size(); ++i)
     discrete.push_back(
-        row_by_row(Eigen::Translation3d(about) * symmetries.turns[i].cast<double>().normalized() *
-                   Eigen::Translation3d(-about)));
+        row_by_row(geometry::turn_about(about, symmetries.turns[i].cast<double>().normalized())));
   for (const Eigen::Vector3f& axis : symmetries.axes)
     continuous.push_back(
         {{"axis", {axis.x(), axis.y(), axis.z()}}, {"offset", {about.x(), about.y(), about.z()}}});

@@ -21,6 +21,10 @@ Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
   return pose;
 }
 
+Eigen::Isometry3d turn_about(const Eigen::Vector3d& point, const Eigen::Quaterniond& turn) {
+  return Eigen::Translation3d(point) * turn * Eigen::Translation3d(-point);
+}
+
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::Matrix3d relative = a.transpose() * b;
   const Eigen::Quaterniond q(relative);

@@ -12,6 +12,9 @@ namespace posevote::geometry {
 Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
                             const Eigen::Vector3d& translation);
 
+/// `turn` (unit) about a point that stays where it is.
+Eigen::Isometry3d turn_about(const Eigen::Vector3d& point, const Eigen::Quaterniond& turn);
+
 /// Angle of the rotation that carries a into b, in [0, pi]; also right for tiny angles.
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 

@@ -182,6 +182,7 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
   if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
   const DepthRange range{params.min_depth, params.max_depth,
                          static_cast<std::size_t>(params.max_points)};
+  if (file.depth && file.color.empty()) return points_of(*file.depth, camera, range);
   LoadedDepth image = file.depth ? *file.depth : read_depth(file.path, camera, range);
   try {
     if (params.colors && !file.color.empty()) add_colors(file.color, image);

@@ -81,7 +81,7 @@ LookOf::LookOf(const Cloud& cloud) : lab(color::lab_of(cloud.colors)) {
 
 std::optional<ColorFit> measure_colors(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
                                        Eigen::Index points) {
-  if (sought.look->lab.rows() == 0 || sought.scan.look.lab.rows() == 0) return std::nullopt;
+  if (!sought.look || sought.look->lab.rows() == 0) return std::nullopt;
   const std::vector<Patch> pairs = pairs_of(sought, T_scene_model, points);
   if (pairs.size() < kFewestPairs) return std::nullopt;
   const ColorTerms& terms = sought.terms.color;

@@ -6,15 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/geometry/rotation.hpp"
+
 namespace posevote::poses {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-
-Eigen::Isometry3d about(const Eigen::Vector3f& fixed_point, const Eigen::Quaterniond& turn) {
-  const Eigen::Vector3d point = fixed_point.cast<double>();
-  return Eigen::Translation3d(point) * turn.normalized() * Eigen::Translation3d(-point);
-}
 
 /// One pose that was tried.
 struct Tried {
@@ -28,7 +25,8 @@ class Turner {
       : sought_(sought), symmetries_(symmetries), origin_(candidate.T_scene_model) {}
 
   Tried with(const Eigen::Quaterniond& turn, Eigen::Index points) const {
-    const Eigen::Isometry3d T = origin_ * about(symmetries_.fixed_point, turn);
+    const Eigen::Isometry3d T =
+        origin_ * geometry::turn_about(symmetries_.fixed_point.cast<double>(), turn.normalized());
     return {T, measure_colors(sought_, T, points)};
   }
   /// In [-1, 1]; less where nothing can be compared.

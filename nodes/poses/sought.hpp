@@ -54,7 +54,10 @@ struct Sought {
   std::shared_ptr<const geometry::PointGrid> model_grid =
       std::make_shared<const geometry::PointGrid>(model.cloud.points, params.tolerance);
   std::shared_ptr<Memory> memory = std::make_shared<Memory>();
-  std::shared_ptr<const LookOf> look = std::make_shared<const LookOf>(model.cloud);
+  /// Null where the scan has no colours to compare with.
+  std::shared_ptr<const LookOf> look = scan.look.lab.rows() > 0
+                                           ? std::make_shared<const LookOf>(model.cloud)
+                                           : nullptr;
 };
 
 }  // namespace posevote::poses

@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "nodes/geometry/rotation.hpp"
+
 namespace posevote::train {
 namespace {
 
@@ -29,7 +31,7 @@ class Finder {
 
   const Vector3d& mean() const { return mean_; }
   bool is_exact(const Quaterniond& turn) const {
-    return is_exact_(Eigen::Translation3d(mean_) * turn * Eigen::Translation3d(-mean_));
+    return is_exact_(geometry::turn_about(mean_, turn));
   }
 
   /// Continuous ones: main axes of the cloud, which are the most precise, or of the turns; at most

@@ -23,6 +23,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/geometry/icp.hpp"
+#include "nodes/geometry/rotation.hpp"
 #include "nodes/geometry/select_rows.hpp"
 #include "nodes/train/exact_symmetries.hpp"
 
@@ -92,8 +93,7 @@ std::vector<Rated> rate_rotations(const Cloud& cloud, const Eigen::Vector3d& cen
   const geometry::ScanSurface surface(coarse, false, near);
   std::vector<Rated> motions(static_cast<std::size_t>(params.rotations));
   graph::parallel_for(motions.size(), 8, [&](std::size_t i) {
-    motions[i].motion = Eigen::Translation3d(center) * spiral_rotation(i, motions.size()) *
-                        Eigen::Translation3d(-center);
+    motions[i].motion = geometry::turn_about(center, spiral_rotation(i, motions.size()));
     motions[i].overlap = overlap_of(sample, surface, motions[i].motion, near);
   });
   sort_by_overlap(motions);

@@ -22,9 +22,7 @@ void add_options(CLI::App& app, BenchCommand& command) {
   app.add_option("--repeat", command.repeat, "Turns; the figures are medians")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--threads", command.threads, "Threads; 0: all cores")
-      ->check(whole_number(kMostThreads))
-      ->capture_default_str();
+  add_threads(app, command.threads);
   app.add_option("--out", command.out, "Also write the figures as JSON")->type_name("FILE");
   add_json(app, command.json);
   app.add_option("--growth", command.growth,

@@ -33,9 +33,7 @@ void add_options(CLI::App& app, EvaluateCommand& command) {
   app.add_option("--visible", command.visible, "Leave out instances less visible")
       ->check(number_in(0, 1))
       ->capture_default_str();
-  app.add_option("--targets", command.targets,
-                 "Judge only these; default test_targets_bop19.json, if there; none: judge all")
-      ->type_name("FILE");
+  add_targets(app, command.targets);
   app.add_option("--min-score", command.min_score,
                  "Count detections from this score up; curves and best F1 take all")
       ->check(number_in(-1e9, 1e9));

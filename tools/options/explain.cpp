@@ -38,9 +38,7 @@ void add_options(CLI::App& app, ExplainCommand& command) {
   app.add_option("--picture", command.picture,
                  "A picture of the scan with the candidates (and true poses) in it")
       ->type_name("FILE.png");
-  app.add_option("--threads", command.threads, "Threads; 0: all cores")
-      ->check(whole_number(kMostThreads))
-      ->capture_default_str();
+  add_threads(app, command.threads);
 }
 
 const auto registered = register_command<ExplainCommand>(

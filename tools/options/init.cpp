@@ -39,9 +39,7 @@ void add_options(CLI::App& app, init::Command& command) {
   app.add_option("--look", command.look, "Scans to look at")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--cache", command.cache,
-                 "Folder for trained libraries; default ~/.cache/posevote")
-      ->type_name("DIR");
+  add_cache(app, command.cache);
   app.add_flag("--overwrite", command.overwrite, "Write anew what an earlier init wrote to DIR");
   app.add_flag("--json", command.json, "Print what is seen and said as JSON");
 }

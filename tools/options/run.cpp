@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <limits>
-
 #include "graph/schema.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
@@ -97,18 +95,12 @@ void add_options(CLI::App& app, Options& options) {
       ->type_name("PIPELINE");
   add_frames(app, command);
   add_set(app, command.set);
-  app.add_option("--threads", command.threads, "Threads; 0: all cores")
-      ->check(whole_number(kMostThreads))
-      ->capture_default_str();
+  add_threads(app, command.threads);
   app.add_option("--tokens", command.tokens, "Frames in flight; 0: 2 x threads")
       ->check(whole_number(kMostThreads))
       ->capture_default_str();
-  app.add_option("--seed", command.seed, "Seed of all randomness")
-      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  app.add_option("--cache", command.cache,
-                 "Folder for trained libraries; default ~/.cache/posevote")
-      ->type_name("DIR");
+  add_seed(app, command.seed);
+  add_cache(app, command.cache);
   CLI::Option* resume =
       app.add_flag("--resume", command.resume, "Go on in an --out that a run has begun");
   app.add_flag("--overwrite", command.overwrite,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/sweep/sweep.hpp"
 
-#include <limits>
-
 #include "tools/command_line.hpp"
 
 namespace posevote {
@@ -27,9 +25,7 @@ void add_judging(CLI::App& app, SweepCommand& command) {
   app.add_option("--visible", command.judge.least_visible, "Leave out instances less visible")
       ->check(number_in(0, 1))
       ->capture_default_str();
-  app.add_option("--targets", command.targets,
-                 "Judge only these; default test_targets_bop19.json, if there; none: judge all")
-      ->type_name("FILE");
+  add_targets(app, command.targets);
 }
 
 void add_options(CLI::App& app, Options& options) {
@@ -72,14 +68,9 @@ void add_options(CLI::App& app, Options& options) {
                  "Other wiring than the config's, as `posevote configs` lists (ransac ...)")
       ->type_name("PIPELINE");
   add_set(app, run.set);
-  app.add_option("--threads", run.threads, "Threads; 0: all cores")
-      ->check(whole_number(kMostThreads))
-      ->capture_default_str();
-  app.add_option("--seed", run.seed, "Seed of all randomness")
-      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  app.add_option("--cache", run.cache, "Folder for trained libraries; default ~/.cache/posevote")
-      ->type_name("DIR");
+  add_threads(app, run.threads);
+  add_seed(app, run.seed);
+  add_cache(app, run.cache);
   add_json(app, run.json);
   app.add_flag("--quiet", run.quiet, "No progress");
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/bop_writer.hpp"
 
-#include <png.h>
-
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "nodes/formats/color_image.hpp"
 #include "nodes/formats/write_ply.hpp"
+#include "nodes/formats/write_png.hpp"
 #include "nodes/geometry/extreme_points.hpp"
 #include "tools/write_text.hpp"
 
@@ -36,22 +34,6 @@ std::string lines(const ordered_json& json) {
   return text + "\n}\n";
 }
 
-/// `format`: one of libpng's, of the pixels.
-std::string encode_png(std::size_t width, std::size_t height, png_uint_32 format,
-                       const void* pixels) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(width);
-  image.height = static_cast<png_uint_32>(height);
-  image.format = format;
-  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
-  png_alloc_size_t size = bytes.size();
-  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr))
-    throw std::runtime_error(std::string("encoding an image: ") + image.message);
-  bytes.resize(size);
-  return bytes;
-}
-
 /// In mm. Of a paint as much as the mesh can carry: an image, or a colour a vertex where there are
 /// many.
 void write_model(const fs::path& file, const Mesh& mesh, const Paint* paint) {
@@ -61,8 +43,8 @@ void write_model(const fs::path& file, const Mesh& mesh, const Paint* paint) {
     return formats::write_ply(file, mesh, 1000, paint_points(mesh, *paint));
   const PaintedFaces painted = paint_faces(mesh, *paint);
   const fs::path image = fs::path(file).replace_extension(".png");
-  write_text(image, encode_png(painted.image.width, painted.image.height, PNG_FORMAT_RGB,
-                               painted.image.values.data()));
+  formats::write_png(image, painted.image.width, painted.image.height, PNG_FORMAT_RGB,
+                     painted.image.values.data());
   formats::write_ply(file, mesh, 1000, {}, {image.filename().string(), painted.places});
 }
 
@@ -143,9 +125,9 @@ void BopWriter::add_image(const std::vector<Body>& bodies, const Sensor& sensor,
   const int im_id = images_++;
   const std::string key = std::to_string(im_id), name = six_digits(im_id);
   const Camera& camera = sensor.camera;
-  write_text(out_ / kSplit / six_digits(kSceneId) / "depth" / (name + ".png"),
-             encode_png(scan.depth.width, scan.depth.height, PNG_FORMAT_LINEAR_Y,  // 16-bit grey
-                        scan.depth.values.data()));
+  formats::write_png(out_ / kSplit / six_digits(kSceneId) / "depth" / (name + ".png"),
+                     scan.depth.width, scan.depth.height, PNG_FORMAT_LINEAR_Y,  // 16-bit grey
+                     scan.depth.values.data());
   if (!scan.colors.values.empty()) {
     constexpr int kQuality = 92;
     const fs::path folder = out_ / kSplit / six_digits(kSceneId) / "rgb";
