@@ -22,9 +22,11 @@ namespace posevote::poses {
 struct Question {
   Eigen::Isometry3d T_scene_model;
   std::int64_t how = 0;
+  double reach = 1;
 
   bool operator==(const Question& other) const {
-    return how == other.how && T_scene_model.matrix() == other.T_scene_model.matrix();
+    return how == other.how && reach == other.reach &&
+           T_scene_model.matrix() == other.T_scene_model.matrix();
   }
 };
 

@@ -46,7 +46,7 @@ void refine(const Sought& sought, Candidate& candidate) {
              terms.full_points, terms.full_still, sought.terms.icp});
   candidate.is_refined = true;
   turn_by_color(sought, candidate);
-  judge(sought, candidate, sought.terms.schedule.close_points);
+  judge(sought, candidate, {sought.terms.schedule.close_points});
   believe(sought, candidate);
 }
 
@@ -56,7 +56,7 @@ void polish(const Sought& sought, Candidate& candidate) {
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
            terms.polish_points, terms.polish_still, sought.terms.icp});
   turn_by_color(sought, candidate);
-  judge(sought, candidate, 0);
+  judge(sought, candidate, {});
   believe(sought, candidate);
 }
 

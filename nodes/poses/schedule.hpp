@@ -2,9 +2,10 @@
 // Who gets how much attention: the fewer poses are left, the more is spent on each.
 //
 //   step             how many                    judged by
-//   glance           all that were collected     50 model points
+//   glance           all that were collected     50 model points, with twice the tolerance, as
+//                                                proposals lie off by part of a bandwidth
 //   sketch           the shortlist, 160          300, after their proposer improved them
-//   bring closer     the promising, 20           300, after the first steps of ICP
+//   bring closer     the promising, 40           300, after the first steps of ICP
 //   look             those that may be finalists 1000
 //   refine           the finalists, 4, and twins 4000, after ICP
 //   polish           the one that is chosen      all points, after ICP by ten thousand
@@ -15,6 +16,7 @@
 #include <functional>
 
 #include "nodes/poses/candidate.hpp"
+#include "nodes/poses/score.hpp"
 #include "nodes/poses/sought.hpp"
 
 namespace posevote::poses {
@@ -24,7 +26,7 @@ using Improve = std::function<Hypothesis(const Hypothesis&)>;
 
 /// Judges part of the pool and sorts all up to its end.
 void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::size_t end,
-                Eigen::Index points);
+                const Closeness& look);
 
 /// Keeps as many as the shortlist has places, by a glance if there are more.
 void make_shortlist(const Sought& sought, Candidates& pool);

@@ -11,15 +11,15 @@ namespace {
 
 /// What depends on the scan within the tolerance of a posed model.
 template <class Value>
-Answer<Value> answer_at(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Value value) {
+Answer<Value> answer_at(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
+                        double tolerance, Value value) {
   const Eigen::Vector3d center = posed_center(T_scene_model, sought.model.center);
-  return {std::move(value), Eigen::AlignedBox3d(center),
-          sought.reach + 1.001 * static_cast<double>(sought.params.tolerance)};
+  return {std::move(value), Eigen::AlignedBox3d(center), sought.reach + 1.001 * tolerance};
 }
 
 std::size_t count_explained(const Sought& sought, const Eigen::Isometry3d& T_scene_model) {
   return sought.memory->explained.get(sought.scan, {T_scene_model}, [&] {
-    return answer_at(sought, T_scene_model,
+    return answer_at(sought, T_scene_model, static_cast<double>(sought.params.tolerance),
                      sought.scan.count_explained(sought.model, *sought.model_grid, T_scene_model,
                                                  sought.params.tolerance, sought.voters));
   });
@@ -27,12 +27,13 @@ std::size_t count_explained(const Sought& sought, const Eigen::Isometry3d& T_sce
 
 }  // namespace
 
-Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Eigen::Index points) {
-  return sought.memory->fits.get(sought.scan, {T_scene_model, points}, [&] {
+Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look) {
+  const double tolerance = look.reach * static_cast<double>(sought.params.tolerance);
+  return sought.memory->fits.get(sought.scan, {T_scene_model, look.points, look.reach}, [&] {
     return answer_at(
-        sought, T_scene_model,
+        sought, T_scene_model, tolerance,
         measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface, sought.scan.view,
-                    T_scene_model, sought.params.tolerance, points, sought.terms.fit));
+                    T_scene_model, static_cast<float>(tolerance), look.points, sought.terms.fit));
   });
 }
 
@@ -43,8 +44,8 @@ void grade(const Sought& sought, Candidate& candidate) {
                                                 sought.terms.score.trust_in_support);
 }
 
-void judge(const Sought& sought, Candidate& candidate, Eigen::Index points) {
-  candidate.fit = measure(sought, candidate.T_scene_model, points);
+void judge(const Sought& sought, Candidate& candidate, const Closeness& look) {
+  candidate.fit = measure(sought, candidate.T_scene_model, look);
   grade(sought, candidate);
 }
 

@@ -8,14 +8,20 @@
 
 namespace posevote::poses {
 
-/// How the scan, as it is now, agrees with a pose: by about so many model points, 0 for all.
-Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, Eigen::Index points);
+/// How closely a pose is looked at.
+struct Closeness {
+  Eigen::Index points = 0;  ///< of the model, about so many; 0: all
+  double reach = 1;         ///< how near them the scan must be [x inlier_distance]
+};
+
+/// How the scan, as it is now, agrees with a pose.
+Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look);
 
 /// Sets quality and rank from the fit.
 void grade(const Sought& sought, Candidate& candidate);
 
-/// Measures the fit by some model points, and grades.
-void judge(const Sought& sought, Candidate& candidate, Eigen::Index points);
+/// Measures the fit, and grades.
+void judge(const Sought& sought, Candidate& candidate, const Closeness& look);
 
 /// Whether a refined pose may be an instance: it reaches min_score and is not more than doubtful.
 bool is_convincing(const Sought& sought, const Candidate& candidate);

@@ -26,6 +26,11 @@ void add_schedule(Node& node) {
        "Model points that judge a proposal as it came. Fewer are quicker, "
        "and lose true poses.",
        in_range(1, 1000000));
+  term(
+      "glance_reach", &G::glance_reach, "x inlier_distance",
+      "How near these the scan must be: proposals lie off by part of a bandwidth. At 1, true poses "
+      "are lost (LM-O: 3 of 8 instead of 4); far more, and any surface near does.",
+      in_range(0.5, 10));
   term("sketch_points", &G::sketch_points, "points",
        "Model points that judge an improved one, and one brought closer.", in_range(1, 1000000));
   term("look_points", &G::look_points, "points",

@@ -15,8 +15,9 @@ namespace posevote::poses {
 
 /// How many poses get how much attention (schedule.hpp).
 struct ScheduleTerms {
-  int shortlist = 160, promising = 20, finalists = 4;
+  int shortlist = 160, promising = 40, finalists = 4;
   int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
+  double glance_reach = 2;
   double hopeless = 0.25;
 };
 
@@ -48,12 +49,11 @@ struct ScoreTerms {
 };
 
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
-/// fitted (posevote calibrate) on 166 images of the scenes of configs/calibration_scenes.yaml, of
-/// that seed and another.
+/// fitted (posevote calibrate) on the 166 images of configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -22.24;
+  double offset = -25.72;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.249, 1.37, 2.128, -2.795, 0.684, 0.107, 16.64, 1.783};
+  Clues weights{1.246, 0.7217, 1.456, -4.179, 0.5307, 0.2437, 13.39, 2.183};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a model's surfaces end: segmentation holds that against where the scan's do
-// (outline.hpp). `reach` is what a scan that ends is off at most.
+// (outline.hpp). `reach` is what a scan that ends is off at most: sensors that match by windows let
+// what stands in front run up to five pixels over its edge, and the tolerance comes to that.
 //
 // A closed body ends where it turns away. Where an open mesh has its border, the body may well go
 // on: a scan without its bottom, a CAD model of some faces of a thing. So nothing is said there,
@@ -22,7 +23,7 @@ namespace posevote::train {
 namespace {
 
 struct Params {
-  double reach = 5;
+  double reach = 9;
   std::string borders = "unknown";
 };
 

@@ -28,6 +28,7 @@ struct Sensor {
   std::size_t window = 0;
   double window_noise_z2 = 0;  ///< deviation of the shared error over depth^2 [1/m]
   double window_shift = 0;     ///< and of where a pixel looks [pixels]
+  double edge_shift = 0;       ///< and of where what stands in front ends [pixels]
 };
 
 /// Names of sensors: "laser", "rgbd" ...

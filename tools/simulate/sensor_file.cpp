@@ -24,7 +24,7 @@ struct SensorSpec {
   int width = 640, height = 480, holes = 0, window = 0;
   double field = 0, fx = 0, fy = 0, cx = 0, cy = 0, depth_scale = 0.05;
   double noise = 0, noise_z2 = 0, grazing_cosine = 0.2, disparity_step = 0, edge_jump = 0;
-  double window_noise_z2 = 0, window_shift = 0;
+  double window_noise_z2 = 0, window_shift = 0, edge_shift = 0;
 };
 
 const std::vector<ParamSpec>& params() {
@@ -46,7 +46,8 @@ const std::vector<ParamSpec>& params() {
       make_param<S>("holes", &S::holes, "", "", in_range(0, 1000)),
       make_param<S>("window", &S::window, "pixel", "", in_range(0, 20)),
       make_param<S>("window_noise_z2", &S::window_noise_z2, "1/m", "", in_range(0, 0.1)),
-      make_param<S>("window_shift", &S::window_shift, "pixel", "", in_range(0, 20))};
+      make_param<S>("window_shift", &S::window_shift, "pixel", "", in_range(0, 20)),
+      make_param<S>("edge_shift", &S::edge_shift, "pixel", "", in_range(0, 20))};
   return all;
 }
 
@@ -64,6 +65,7 @@ Sensor to_sensor(const SensorSpec& spec) {
   sensor.edge_jump = spec.edge_jump, sensor.holes = spec.holes;
   sensor.window = static_cast<std::size_t>(spec.window);
   sensor.window_noise_z2 = spec.window_noise_z2, sensor.window_shift = spec.window_shift;
+  sensor.edge_shift = spec.edge_shift;
   return sensor;
 }
 

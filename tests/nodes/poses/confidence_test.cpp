@@ -63,7 +63,7 @@ TEST_CASE("the true pose is believed, one beside it less, one elsewhere not", "[
   const auto confidence = [&](const Eigen::Isometry3d& T_scene_model) {
     poses::Candidate one = body.candidate(T_scene_model);
     one.is_refined = true;
-    poses::judge(body.sought(), one, 0);
+    poses::judge(body.sought(), one, {});
     poses::believe(body.sought(), one);
     return one.confidence;
   };

@@ -15,7 +15,7 @@ TEST_CASE("a pose off by some degrees grades lower, one elsewhere has no quality
   poses::Candidate right = body.candidate(beside(0)), turned = body.candidate(beside(0, 0.5));
   poses::Candidate elsewhere = body.candidate(beside(0.4));
   for (poses::Candidate* one : {&right, &turned, &elsewhere})
-    poses::judge(body.sought(), *one, 1000);
+    poses::judge(body.sought(), *one, {1000});
   CHECK(right.quality > 0.8);
   CHECK(turned.quality < 0.8 * right.quality);
   CHECK(turned.quality > 0);
@@ -25,11 +25,24 @@ TEST_CASE("a pose off by some degrees grades lower, one elsewhere has no quality
 TEST_CASE("a pose is judged by about as many points as are asked for", "[poses]") {
   const SoughtBody body({kBody});
   const auto facing = [&](Eigen::Index points) {
-    return static_cast<double>(poses::measure(body.sought(), beside(0), points).facing);
+    return static_cast<double>(poses::measure(body.sought(), beside(0), {points}).facing);
   };
   const auto all = static_cast<double>(body.model.cloud.points.rows());
   CHECK(facing(0) == Approx(0.45 * all).epsilon(0.05));
   CHECK(facing(300) == Approx(0.45 * 300).epsilon(0.2));
+}
+
+TEST_CASE("a glance reaches farther than a look, and each is remembered for itself", "[poses]") {
+  const SoughtBody body({kBody});
+  const double off = 1.5 * static_cast<double>(body.sought().params.tolerance);
+  Eigen::Isometry3d T = beside(0);
+  T.pretranslate(Eigen::Vector3d(0, 0, off));  // along the rays
+  for (int again = 0; again < 2; ++again) {
+    const Fit look = poses::measure(body.sought(), T, {300});
+    const Fit glance = poses::measure(body.sought(), T, {300, 2});
+    CHECK(glance.facing == look.facing);
+    CHECK(glance.supported > 2 * look.supported);
+  }
 }
 
 TEST_CASE("less support lowers the rank, not the quality", "[poses]") {
@@ -37,7 +50,7 @@ TEST_CASE("less support lowers the rank, not the quality", "[poses]") {
   poses::Candidate much = body.candidate(beside(0), 100), little = body.candidate(beside(0), 1);
   poses::Sought sought = body.sought();
   sought.most_support = 100;
-  for (poses::Candidate* one : {&much, &little}) poses::judge(sought, *one, 0);
+  for (poses::Candidate* one : {&much, &little}) poses::judge(sought, *one, {});
   CHECK(much.quality == little.quality);
   CHECK(much.rank == much.quality);
   CHECK(little.rank == Approx(little.quality / 1.585).epsilon(0.001));
@@ -68,7 +81,7 @@ TEST_CASE("a pose convinces by score and confidence; a rival's has no consensus"
   body.params.min_score = 0.75;
   poses::Sought sought = body.sought();
   poses::Candidate lonely = body.candidate(beside(0), 0.1);
-  poses::judge(sought, lonely, 0);
+  poses::judge(sought, lonely, {});
   poses::believe(sought, lonely);
   REQUIRE(lonely.quality > 0.8);
   CHECK(poses::is_convincing(sought, lonely));
@@ -90,7 +103,7 @@ TEST_CASE("what leaves more than the instances before is less exact, once refine
   exact.supported = 100, exact.rmse = 1e-6;
   body.scan.usual_residual.add(exact, 0.8);
   poses::Candidate off = body.candidate(beside(0.004));
-  poses::judge(body.sought(), off, 0);
+  poses::judge(body.sought(), off, {});
   const double rough = off.quality;
   off.is_refined = true;
   REQUIRE(off.fit.rmse > 1.5 * 0.15 * 2 * kResolution);

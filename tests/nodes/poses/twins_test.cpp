@@ -24,7 +24,7 @@ struct Mistaken {
     motion.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
     wrong = body.candidate(kBody.T_scene_model * motion.inverse());
     right = body.candidate(kBody.T_scene_model);
-    for (poses::Candidate* one : {&wrong, &right}) poses::judge(body.sought(), *one, 1000);
+    for (poses::Candidate* one : {&wrong, &right}) poses::judge(body.sought(), *one, {1000});
     for (std::uint32_t i = 0; i < body.model.cloud.points.rows(); ++i) {
       if (balance_of(i, wrong) > 0) for_wrong.push_back(i);
       if (balance_of(i, right) > 0) for_right.push_back(i);

@@ -18,11 +18,11 @@ TEST_CASE("find_outline sees where a plate ends, and that a closed body does not
     return static_cast<double>(some) / static_cast<double>(outline.ends.size());
   };
   const Outline edge = run_node<Outline>("find_outline", {}, Mesh{}, plate, scale);
-  CHECK(edge.reach == 5 * kResolution);
+  CHECK(edge.reach == 9 * kResolution);
   CHECK(static_cast<Eigen::Index>(edge.ends.size()) == plate.points.rows());
   CHECK(share(edge) > 0.2);
   CHECK(share(edge) < 0.6);
-  CHECK(share(run_node<Outline>("find_outline", {}, Mesh{}, body, scale)) < 0.1);
+  CHECK(share(run_node<Outline>("find_outline", {{"reach", "5"}}, Mesh{}, body, scale)) < 0.1);
   CHECK(share(run_node<Outline>("find_outline", {{"reach", "2"}}, Mesh{}, plate, scale)) <
         share(edge));
   Cloud bare = plate;
