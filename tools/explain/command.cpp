@@ -12,6 +12,7 @@
 #include "tools/explain/picture.hpp"
 #include "tools/explain/sentences.hpp"
 #include "tools/explain/to_json.hpp"
+#include "tools/json_answer.hpp"
 
 namespace posevote {
 namespace {
@@ -62,6 +63,7 @@ std::string only_scene(const ExplainCommand& command, const explain::Run& run) {
 }  // namespace
 
 int explain_command(const ExplainCommand& command) {
+  const JsonAnswer answer(command.json);
   const explain::Run run = explain::open_run(command.out, command.models);
   const std::string scene = only_scene(command, run);
   explain::Request request;
@@ -74,10 +76,8 @@ int explain_command(const ExplainCommand& command) {
       throw std::invalid_argument("--picture " + command.picture + ": the scan has failed");
     explain::draw(explanation, run, command.picture);
   }
-  if (command.json)
-    std::printf("%s\n", explain::to_json(explanation)
-                            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
-                            .c_str());
+  if (answer.wanted())
+    answer.give(explain::to_json(explanation));
   else
     std::printf("%s", explain::to_text(explanation).c_str());
   return 0;

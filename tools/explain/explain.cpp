@@ -6,6 +6,7 @@
 
 #include "nodes/geometry/extent.hpp"
 #include "tools/explain/attempts.hpp"
+#include "tools/explain/best_candidate.hpp"
 #include "tools/explain/sentences.hpp"
 
 namespace posevote::explain {
@@ -42,16 +43,6 @@ Explained without_search(const std::string& model, int obj_id, const Verdict& ve
   return one;
 }
 
-/// The search with more of everything, for one object in the whole scan: what it finds beyond the
-/// run's was outranked, or its points were taken.
-poses::SegmentParams deeper(const poses::SegmentParams& params) {
-  poses::SegmentParams more = params;
-  more.terms.schedule.shortlist = std::min(10000, 4 * params.terms.schedule.shortlist);
-  more.terms.schedule.promising = std::min(10000, 5 * params.terms.schedule.promising);
-  more.terms.schedule.finalists = std::min(1000, 5 * params.terms.schedule.finalists);
-  return more;
-}
-
 class Explainer {
  public:
   Explainer(const Taps& taps, const Request& request)
@@ -78,7 +69,7 @@ class Explainer {
       }
     }
     if (!truth.empty() || all.empty()) {
-      const std::optional<Eigen::Isometry3d> best = best_candidate(i);
+      const std::optional<Eigen::Isometry3d> best = best_candidate(bench_, i);
       for (const Eigen::Isometry3d& pose : truth) all.push_back(missed(i, best, &pose));
       if (all.empty()) all.push_back(missed(i, best, nullptr));
     }
@@ -99,30 +90,6 @@ class Explainer {
     one.model = model(i).name;
     one.obj_id = model(i).obj_id;
     return one;
-  }
-
-  /// The best candidate: of the run's own search or of the deeper one, or the highest mode.
-  std::optional<Eigen::Isometry3d> best_candidate(std::size_t i) const {
-    const SearchWatch alone(taps_, deeper(taps_.run.segmentation()), i);
-    const poses::Candidate* best = nullptr;
-    for (const SearchWatch* search : {&search_, &alone})
-      for (const auto* list : {&search->instances().rejected, &search->instances().found})
-        for (const poses::Instance& one : *list) {
-          if (one.object != i || is_found_near(i, one.candidate.T_scene_model)) continue;
-          if (!best || one.candidate.confidence > best->confidence) best = &one.candidate;
-        }
-    if (best) return best->T_scene_model;
-    const std::vector<Hypothesis> modes = segment::modes_of(bench_.objects[i]);
-    if (modes.empty()) return std::nullopt;
-    return T_scene_model_of(modes.front(), model(i).center);
-  }
-
-  bool is_found_near(std::size_t i, const Eigen::Isometry3d& pose) const {
-    const Alike alike(model(i), pose);
-    const auto& found = search_.instances().found;
-    return std::any_of(found.begin(), found.end(), [&](const poses::Instance& one) {
-      return one.object == i && alike.is_near(one.candidate.T_scene_model);
-    });
   }
 
   Explained missed(std::size_t i, const std::optional<Eigen::Isometry3d>& best,

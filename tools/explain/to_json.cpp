@@ -19,7 +19,10 @@ Json to_json(const Clues& values) {
 }
 
 Json to_json(const Judged& judged) {
+  Json against = to_json(judged.against);
+  against["colors"] = judged.colors_against;
   return {{"confidence", judged.confidence},
+          {"forgiven", judged.forgiven()},
           {"score", judged.score},
           {"agreement", judged.agreement},
           {"relief", judged.relief},
@@ -27,7 +30,7 @@ Json to_json(const Judged& judged) {
           {"votes_per_feature", judged.votes_per_feature},
           {"rmse_m", judged.rmse},
           {"clues", to_json(judged.clues)},
-          {"against", to_json(judged.against)}};
+          {"against", against}};
 }
 
 Json to_json(const std::vector<Place>& way) {
