@@ -186,3 +186,12 @@ TEST_CASE("tools/README.md lists every command: `posevote docs --commands` when 
   const std::string readme = test::read_text(POSEVOTE_SOURCE_DIR "/tools/README.md");
   CHECK(readme.find(command_table(make_program()->app)) != std::string::npos);
 }
+
+TEST_CASE("graph/README.md draws the default wiring: `posevote docs --wiring default` if not",
+          "[docs]") {
+  const test::TemporaryFolder folder;
+  const std::string drawing = shell(folder, POSEVOTE_BINARY " docs --wiring default");
+  REQUIRE(drawing.starts_with("flowchart TD\n"));
+  const std::string readme = test::read_text(POSEVOTE_SOURCE_DIR "/graph/README.md");
+  CHECK(readme.find("```mermaid\n" + drawing + "```\n") != std::string::npos);
+}

@@ -8,12 +8,13 @@
 namespace posevote::explain {
 namespace {
 
-/// The search with more of everything.
+/// The search with more of everything, which refines what the run's would have passed over.
 poses::SegmentParams deeper(const poses::SegmentParams& params) {
   poses::SegmentParams more = params;
-  more.terms.schedule.shortlist = std::min(10000, 4 * params.terms.schedule.shortlist);
-  more.terms.schedule.promising = std::min(10000, 5 * params.terms.schedule.promising);
-  more.terms.schedule.finalists = std::min(1000, 5 * params.terms.schedule.finalists);
+  poses::ScheduleTerms& schedule = more.terms.schedule;
+  schedule.shortlist = std::min(10000, 4 * schedule.shortlist);
+  schedule.promising = schedule.finalists = std::max(150, schedule.promising);
+  schedule.hopeless = 0;
   return more;
 }
 
@@ -39,7 +40,7 @@ poses::Candidates looked_at(const Bench& bench, std::size_t object) {
 
 /// What makes a pose the likelier answer to where a missed object is: to be sure and on points of
 /// its own, to be sure but for others that have its points, to be sure but for one clue. A sure one
-/// in the place of a found one of its kind is most likely that one.
+/// on the points of a found one of its kind is most likely that one.
 double promise(const Bench& bench, std::size_t object, const poses::Candidate& candidate) {
   const Model& model = *bench.taps.votes[object].model;
   const Judged judged = judged_as(candidate, bench.params.terms);
@@ -47,11 +48,8 @@ double promise(const Bench& bench, std::size_t object, const poses::Candidate& c
   at.T_scene_model = candidate.T_scene_model;
   bench.compare_found(object, Alike(model, candidate.T_scene_model), at);
   const bool is_sure = judged.confidence >= bench.params.min_confidence;
-  const bool is_free = at.taken <= kMuchTaken;
-  if (is_free) return is_sure ? 3 + judged.confidence : 1 + judged.forgiven();
-  const double place = bench.params.nms * static_cast<double>(model.diagonal);
-  const bool is_too_near = at.near_same && *at.near_same < place;
-  return is_sure && !is_too_near ? 2 + judged.confidence : judged.confidence;
+  if (at.taken <= kMuchTaken) return is_sure ? 3 + judged.confidence : 1 + judged.forgiven();
+  return is_sure && at.taker != model.name ? 2 + judged.confidence : judged.confidence;
 }
 
 bool is_found(const Bench& bench, std::size_t object, const Eigen::Isometry3d& T_scene_model) {

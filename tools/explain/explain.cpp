@@ -56,22 +56,19 @@ class Explainer {
     std::vector<Eigen::Isometry3d> truth = true_poses(i);
     for (const poses::Instance& one : search_.instances().found) {
       if (one.object != i) continue;
-      Explained& found = all.emplace_back(named(i));
-      found.is_found = true;
-      found.best = bench_.stand(i, one.candidate.T_scene_model);
       const Alike alike(model(i), one.candidate.T_scene_model);
       const auto same = std::find_if(truth.begin(), truth.end(),
                                      [&](const auto& pose) { return alike.is_near(pose); });
-      if (same != truth.end()) {
-        found.best_is_true = true;
-        found.truth = bench_.stand(i, *same);
-        truth.erase(same);
-      }
+      if (!request_.is_of_misses)
+        all.push_back(
+            found(i, one.candidate.T_scene_model, same == truth.end() ? nullptr : &*same));
+      if (same != truth.end()) truth.erase(same);
     }
-    if (!truth.empty() || all.empty()) {
+    const bool is_unseen = all.empty() && !request_.is_of_misses;
+    if (!truth.empty() || is_unseen) {
       const std::optional<Eigen::Isometry3d> best = best_candidate(bench_, i);
       for (const Eigen::Isometry3d& pose : truth) all.push_back(missed(i, best, &pose));
-      if (all.empty()) all.push_back(missed(i, best, nullptr));
+      if (truth.empty()) all.push_back(missed(i, best, nullptr));
     }
     for (Explained& one : all) conclude(i, one);
     return all;
@@ -89,6 +86,16 @@ class Explainer {
     Explained one;
     one.model = model(i).name;
     one.obj_id = model(i).obj_id;
+    return one;
+  }
+
+  Explained found(std::size_t i, const Eigen::Isometry3d& pose,
+                  const Eigen::Isometry3d* truth) const {
+    Explained one = named(i);
+    one.is_found = true;
+    one.best = bench_.stand(i, pose);
+    one.best_is_true = truth != nullptr;
+    if (truth) one.truth = bench_.stand(i, *truth);
     return one;
   }
 
@@ -149,11 +156,10 @@ Explanation explain(const Run& run, const std::string& scene, const Request& req
   explanation.frame = find_frame(run.frames, scene, run.out);
   const std::vector<std::size_t> wanted = wanted_objects(*run.library, request.object);
   if (explanation.frame.failure.empty()) {
-    const Taps taps(run, explanation.frame);
-    explanation.figures = taps.figures;
-    explanation.cloud = taps.cloud;
-    explanation.sentences = scan_sentences(taps.figures, taps.warnings);
-    const Explainer explainer(taps, request);
+    const auto taps = std::make_shared<const Taps>(run, explanation.frame);
+    explanation.taps = taps;
+    explanation.sentences = scan_sentences(taps->figures, taps->warnings);
+    const Explainer explainer(*taps, request);
     for (const std::size_t i : wanted)
       for (Explained& one : explainer.object(i)) explanation.objects.push_back(std::move(one));
   } else {

@@ -73,10 +73,6 @@ Json to_json(const Standing& standing) {
   return json;
 }
 
-Json to_json(const Verdict& verdict) {
-  return {{"cause", name_of(verdict.cause)}, {"stage", verdict.stage}, {"detail", verdict.detail}};
-}
-
 Json to_json(const Explained& one) {
   Json json{{"obj_id", one.obj_id},
             {"model", one.model},
@@ -104,13 +100,17 @@ Json to_json(const Explained& one) {
 
 nlohmann::ordered_json to_json(const Explanation& explanation) {
   Json figures = Json::object();
-  for (const auto& [name, figure] : explanation.figures)
+  for (const auto& [name, figure] : explanation.taps ? explanation.taps->figures : graph::Figures())
     figures[name] = figure.size() == 1 ? Json(figure[0]) : Json(figure);
   Json objects = Json::array();
   for (const Explained& one : explanation.objects) objects.push_back(to_json(one));
   return {{"frame", explanation.frame.number},       {"name", explanation.frame.name},
           {"file", explanation.frame.file.string()}, {"scan", figures},
           {"sentences", explanation.sentences},      {"objects", objects}};
+}
+
+nlohmann::ordered_json to_json(const Verdict& verdict) {
+  return {{"cause", name_of(verdict.cause)}, {"stage", verdict.stage}, {"detail", verdict.detail}};
 }
 
 }  // namespace posevote::explain

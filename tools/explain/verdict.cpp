@@ -75,7 +75,7 @@ std::optional<Verdict> judge_proposal(const Standing& at) {
 }
 
 Verdict judge_true(const Case& of, const Standing& at) {
-  if (is_unseen(at.seen)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
+  if (is_unseen(at.seen) && !was_judged(at)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
   if (was_judged(at) && was_missed_narrowly(of, at)) return {Cause::kMoved, "", ""};
   if (was_judged(at)) return judge_refused(of, at);
   if (const auto early = judge_proposal(at)) return *early;
