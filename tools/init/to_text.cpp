@@ -189,9 +189,8 @@ nlohmann::ordered_json to_json(const Report& report) {
   for (const ModelLook& model : report.models) json["models"].push_back(to_json(model));
   for (const ScanLook& scan : report.scans) json["scans"].push_back(to_json(scan));
   for (const Finding& finding : report.wrong)
-    json["wrong"].push_back({{"what", finding.what},
-                             {"evidence", finding.evidence},
-                             {"config", finding.remedy}});
+    json["wrong"].push_back(
+        {{"what", finding.what}, {"evidence", finding.evidence}, {"config", finding.remedy}});
   for (const Detection& found : report.first.found)
     json["found"].push_back({{"model", found.model}, {"confidence", found.confidence}});
   json["set"] = report.settings.sets();
