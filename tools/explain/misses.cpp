@@ -69,7 +69,6 @@ std::vector<Miss> misses_of(const Run& run, const layouts::GroundTruth& truth,
   std::vector<Miss> misses;
   Progress progress({"scans", run.frames.size()});
   for (const FrameOfRun& frame : run.frames) {
-    progress.advance();
     if (misses.size() >= most) break;
     if (!frame.failure.empty()) continue;
     const layouts::ImageKey image(frame.scene_id, frame.im_id);
@@ -80,6 +79,7 @@ std::vector<Miss> misses_of(const Run& run, const layouts::GroundTruth& truth,
       if (one.truth && is_visible(truth, image, one))
         misses.push_back(
             {frame.name, one.model, one.obj_id, one.guess, one.verdict, is_confirmed(one)});
+    progress.advance();
   }
   return misses;
 }

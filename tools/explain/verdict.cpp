@@ -99,9 +99,10 @@ Verdict judge_candidate(const Case& of, const Standing& at) {
   if (refused.cause != Cause::kRefused) return refused;
   // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
   const Judged& judged = at.taken > kMuchTaken ? at.left : at.judged;
-  const bool is_likely =
-      judged.confidence >= kLikely || (is_voted_for(at) && judged.forgiven() >= kForgiven);
-  if (is_likely) return refused;
+  const bool has_votes = at.rank > 0 || at.agreeing + at.pairs >= kFewAgreeing;
+  const bool is_likely = (has_votes && judged.confidence >= kLikely) ||
+                         (is_voted_for(at) && judged.forgiven() >= kForgiven);
+  if (is_likely && !is_unseen(at.seen)) return refused;
   return {Cause::kNoTrace, worst_clue(at.judged), ""};
 }
 
