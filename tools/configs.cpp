@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "pipelines/installed.hpp"
 #include "tools/commands.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/text.hpp"
 
 namespace posevote {
@@ -59,14 +59,14 @@ void print(const std::vector<Named>& all, Kind kind, const std::string& heading)
       std::cout << format("  %-20s ", named.file.stem().c_str()) << named.purpose << "\n";
 }
 
-std::string to_json(const std::vector<Named>& all) {
+nlohmann::ordered_json to_json(const std::vector<Named>& all) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Named& named : all)
     list.push_back({{"kind", name_of(named.kind)},
                     {"name", named.file.stem().string()},
                     {"purpose", named.purpose},
                     {"file", named.file.string()}});
-  return list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return list;
 }
 
 }  // namespace
@@ -75,7 +75,8 @@ int configs_command(bool json) {
   const fs::path folder = shared_folder();
   std::vector<Named> all = files_in(folder / "configs", false);
   for (Named& named : files_in(folder / "pipelines", true)) all.push_back(std::move(named));
-  if (json) return std::cout << to_json(all), 0;
+  const JsonAnswer answer(json);
+  if (answer.wanted()) return answer.give(to_json(all)), 0;
   print(all, Kind::kConfig, "Configs, for `posevote run NAME`:");
   print(all, Kind::kPipeline, "\nPipelines, for `posevote run NAME --pipeline NAME`:");
   print(all, Kind::kScenes, "\nScenes that can be made, for `posevote simulate FILE`:");

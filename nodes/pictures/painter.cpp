@@ -174,6 +174,16 @@ void Painter::outline(const Cloud& cloud, const Eigen::Isometry3f& pose, const C
   canvas_.outline(shape, 2 * kFiner, colour);
 }
 
+void Painter::dots(const PointMatrix& points, const std::vector<Colour>& colours, float radius) {
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3f seen = view_.in_view(points.row(i).transpose());
+    if (!seen.allFinite() || !(seen.z() > kNearest)) continue;
+    const Eigen::Vector2f at = view_.in_picture(seen);
+    Disc dot{at.x(), at.y(), -static_cast<float>(i), kFiner * radius};
+    canvas_.draw(dot, colours[static_cast<std::size_t>(i)]);
+  }
+}
+
 void Painter::label(const Eigen::Vector3f& where, const std::string& words, const Colour& colour) {
   const Eigen::Vector3f seen = view_.in_view(where);
   if (!(seen.z() > kNearest)) return;

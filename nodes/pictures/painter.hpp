@@ -49,6 +49,9 @@ class Painter {
   /// Draws the edge of what `draw` would cover, in front of all.
   void outline(const Cloud& cloud, const Eigen::Isometry3f& pose, const Colour& colour);
 
+  /// Draws a dot of `radius` [pixel] at each point, in front of all; later ones over earlier ones.
+  void dots(const PointMatrix& points, const std::vector<Colour>& colours, float radius);
+
   /// Notes words to stand at a place, or below it where others stand already: first come, first
   /// served.
   void label(const Eigen::Vector3f& where, const std::string& words, const Colour& colour);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "graph/mermaid.hpp"
 #include "tests/graph/number_nodes.hpp"
 
 using namespace posevote;
@@ -163,6 +164,14 @@ TEST_CASE("the wiring as DOT names every node and stream", "[plan]") {
   for (const char* part : {"\"n\" -> \"test/double\" [label=\"n\", tooltip=\"n: ",
                            "\"test/double\" -> \"r\"", "(multiply)", "rankdir=TB"})
     CHECK(dot.find(part) != std::string::npos);
+}
+
+TEST_CASE("the wiring as Mermaid has every node once and every stream between its ends", "[plan]") {
+  const graph::Plan plan = plan_of(kHead + "  double: {node: multiply, in: n, out: r}\n");
+  CHECK(graph::to_mermaid({&plan}) ==
+        "flowchart TD\n  subgraph test\n    test.double[double]\n  end\n"
+        "  stream.n([n])\n  stream.r([r])\n  stream.n -->|n| test.double\n"
+        "  test.double -->|r| stream.r\n");
 }
 
 TEST_CASE("a parameter may lie deeper in its Params, and be marked for experts", "[schema]") {

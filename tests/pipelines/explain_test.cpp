@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "nodes/formats/color_image.hpp"
 #include "nodes/formats/read_scan.hpp"
 #include "nodes/formats/write_ply.hpp"
 #include "tests/pipelines/run_world.hpp"
@@ -110,6 +111,26 @@ TEST_CASE("an object behind a board is told hidden, by its true pose", "[explain
   CHECK(text_of(object).find("hidden") != std::string::npos);
 }
 
+TEST_CASE("all that a run missed is explained, and whether it can be told without the truth",
+          "[explain]") {
+  const World& w = world();
+  const std::string set = (w.folder / "data").string();
+  const std::string out = (w.folder / "missing").string();
+  const CommandResult run =
+      run_posevote(w.folder, "run demo --dataset " + set + " --out " + out +
+                                 " --set segment_objects.min_confidence=0.999999");
+  INFO(run.output);
+  REQUIRE(run.status == 0);
+  const CommandResult told = explain(out + " --dataset " + set + " --json");
+  INFO(told.output);
+  REQUIRE(told.status == 0);
+  const nlohmann::json all = nlohmann::json::parse(told.output.substr(told.output.find('{')));
+  CHECK(all["missed"] == 4);  // of three scans
+  CHECK(all["causes"]["refused"] == 4);
+  CHECK(all["confirmed"] == 4);
+  CHECK(all["misses"][0]["scene"] == "000001_000000");
+}
+
 TEST_CASE("a model in another unit is named", "[explain]") {
   const World& w = world();
   fs::create_directories(w.folder / "units");
@@ -170,19 +191,43 @@ TEST_CASE("what explain refuses", "[explain]") {
   refused(w.scans.string() + " --scene 1", "effective.yaml");
   refused(out + " --scene 00000", "did you mean '00000");
   refused(out, "say --scene");
+  refused(out + " --dataset nowhere", "nowhere");
   refused(out + " --scene 000000 --object obj_00001", "did you mean 'obj_00000");
   refused(out + " --scene 000000 --truth nothing.txt", "--object");
   refused(out + " --scene 000000 --object 1 --truth nothing.txt", "nothing.txt");
 }
 
-TEST_CASE("the picture is drawn, and the run's own results stay as they are", "[explain]") {
+TEST_CASE("pictures are drawn, and the run's own results stay as they are", "[explain]") {
   const World& w = world();
   const std::string out = run_folder();
   const std::string before = read_text(out + "/results.json");
-  const std::string picture = (w.folder / "why.png").string();
-  const CommandResult drawn = explain(out + " --scene 000001 --picture " + picture);
-  INFO(drawn.output);
-  CHECK(drawn.status == 0);
-  CHECK(fs::file_size(picture) > 1000);
+  const auto drawn = [&](const std::string& what) {
+    const std::string picture = (w.folder / (what + ".png")).string();
+    const CommandResult result =
+        explain(out + " --scene 000001 --object 1 --show " + what + " --picture " + picture);
+    INFO(result.output);
+    REQUIRE(result.status == 0);
+    return formats::read_color_image(picture);
+  };
+  /// Share of an image's pixels in which a channel is well above both others; 3: in which none is.
+  const auto share = [](const ColorImage& image, std::size_t channel) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.values.size(); i += 3) {
+      std::size_t most = 3;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (image.values[i + k] > image.values[i + (k + 1) % 3] + 60 &&
+            image.values[i + k] > image.values[i + (k + 2) % 3] + 60)
+          most = k;
+      count += most == channel;
+    }
+    return 3.0 * static_cast<double>(count) / static_cast<double>(image.values.size());
+  };
+  constexpr std::size_t kRed = 0, kGreen = 1, kBlue = 2, kGrey = 3;
+  CHECK(share(drawn("candidates"), kGrey) < 0.999);
+  CHECK(share(drawn("matches"), kGreen) > 1e-4);
+  const ColorImage votes = drawn("votes");
+  CHECK(share(votes, kGrey) > 0.5);
+  CHECK(share(votes, kRed) > 1e-5);
+  CHECK(share(votes, kBlue) > share(votes, kRed));
   CHECK(read_text(out + "/results.json") == before);
 }

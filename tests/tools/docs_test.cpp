@@ -33,6 +33,41 @@ std::string in_bash(const test::TemporaryFolder& folder, const std::string& line
   return shell(folder, "bash '" + driver + "'");
 }
 
+/// Whether a program is there; says that a test is left out where it is not.
+bool has_program(const test::TemporaryFolder& folder, const std::string& name) {
+  if (!shell(folder, "command -v " + name).empty()) return true;
+  WARN("skipped: no " + name);
+  return false;
+}
+
+/// What the line "posevote LINE" becomes in an interactive zsh by the key Tab. The script's name is
+/// the one it is installed under.
+std::string in_zsh(const test::TemporaryFolder& folder, const std::string& line) {
+  const std::string script = folder.write("_posevote", completion_script("zsh"));
+  const std::string answer = (folder / "completed").string();
+  std::filesystem::remove(answer);
+  const std::string driver = folder.write(
+      "driver", "zmodload zsh/zpty\nzpty shell zsh -f -i\nzpty -w shell \"" +
+                    ("autoload -Uz compinit; compinit -u -D; source '" + script +
+                     "'; save() { print -r -- \\$BUFFER > '" + answer +
+                     "' }; zle -N save; bindkey '^Xs' save\"\n") +
+                    "zpty -w -n shell '" POSEVOTE_BINARY " " + line +
+                    "'$'\\t\\C-xs'\n"
+                    "repeat 600; do\n  [[ -s '" +
+                    answer + "' ]] && break\n  sleep 0.1\n  zpty -r -t shell seen\ndone\n");
+  INFO(shell(folder, "cd '" + folder.path().string() + "' && zsh -f '" + driver + "'"));
+  REQUIRE(std::filesystem::exists(answer));
+  const std::string whole = test::read_text(answer);
+  return whole.substr(std::string(POSEVOTE_BINARY " ").size());
+}
+
+/// What fish offers behind "posevote LINE".
+std::string in_fish(const test::TemporaryFolder& folder, const std::string& line) {
+  const std::string script = folder.write("posevote.fish", completion_script("fish"));
+  return shell(folder, "cd '" + folder.path().string() + "' && HOME=. fish -c \"source '" + script +
+                           "'; complete -C '" POSEVOTE_BINARY " " + line + "'\"");
+}
+
 }  // namespace
 
 TEST_CASE("the man page names every command and option", "[docs]") {
@@ -58,10 +93,7 @@ TEST_CASE("the man page names every command and option", "[docs]") {
 
 TEST_CASE("the man page is sound to roff", "[docs]") {
   const test::TemporaryFolder folder;
-  if (shell(folder, "command -v groff").empty()) {
-    WARN("skipped: no groff");
-    return;
-  }
+  if (!has_program(folder, "groff")) return;
   const std::string page = folder.write("posevote.1", man_page(make_program()->app));
   CHECK(shell(folder, "groff -man -ww -b -z -Tutf8 '" + page + "'").empty());
   const std::string text = shell(folder, "groff -man -Tascii -P-cbou '" + page + "'");
@@ -119,14 +151,33 @@ TEST_CASE("bash offers what the program says", "[docs]") {
         std::string::npos);
 }
 
-TEST_CASE("there is a script for each shell, sound to those that are here", "[docs]") {
+TEST_CASE("zsh completes what the program says", "[docs]") {
   const test::TemporaryFolder folder;
-  for (const std::string name : {"bash", "zsh", "fish"}) {
-    const std::string script = folder.write(name, completion_script(name));
-    if (!shell(folder, "command -v " + name).empty())
-      CHECK(shell(folder, name + " -n '" + script + "'").empty());
+  if (!has_program(folder, "zsh")) return;
+  folder.write("scan one.ply", "");
+  CHECK(in_zsh(folder, "tra") == "train \n");
+  CHECK(in_zsh(folder, "run --on-error sk") == "run --on-error skip \n");
+  CHECK(in_zsh(folder, "run --mode") == "run --model\n");  // -unit or s
+  CHECK(in_zsh(folder, "run uwa --set load_models.unit=c") ==
+        "run uwa --set load_models.unit=cm \n");
+  CHECK(in_zsh(folder, "run uwa --set load_models.un") == "run uwa --set load_models.unit=\n");
+  CHECK(in_zsh(folder, "run --scenes sc") == "run --scenes scan\\ one.ply \n");
+}
+
+TEST_CASE("fish offers what the program says", "[docs]") {
+  const test::TemporaryFolder folder;
+  if (!has_program(folder, "fish")) return;
+  folder.write("scan one.ply", "");
+  CHECK(in_fish(folder, "tra") == "train\n");
+  CHECK(in_fish(folder, "run --on-error s") == "skip\nstop\n");
+  CHECK(in_fish(folder, "run --mode") == "--models\n--model-unit\n");  // fish's order
+  CHECK(in_fish(folder, "run uwa --set load_models.unit=c") == "load_models.unit=cm\n");
+  CHECK(in_fish(folder, "run --scenes sc").find("scan one.ply") != std::string::npos);
+}
+
+TEST_CASE("there is a script for each shell that asks the program", "[docs]") {
+  for (const std::string name : {"bash", "zsh", "fish"})
     CHECK(completion_script(name).find("complete -- ") != std::string::npos);
-  }
   CHECK_THROWS_WITH(completion_script("csh"), Catch::Contains("csh"));
 }
 
@@ -134,4 +185,13 @@ TEST_CASE("tools/README.md lists every command: `posevote docs --commands` when 
           "[docs]") {
   const std::string readme = test::read_text(POSEVOTE_SOURCE_DIR "/tools/README.md");
   CHECK(readme.find(command_table(make_program()->app)) != std::string::npos);
+}
+
+TEST_CASE("graph/README.md draws the default wiring: `posevote docs --wiring default` if not",
+          "[docs]") {
+  const test::TemporaryFolder folder;
+  const std::string drawing = shell(folder, POSEVOTE_BINARY " docs --wiring default");
+  REQUIRE(drawing.starts_with("flowchart TD\n"));
+  const std::string readme = test::read_text(POSEVOTE_SOURCE_DIR "/graph/README.md");
+  CHECK(readme.find("```mermaid\n" + drawing + "```\n") != std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tools/explain/attempts.hpp"
+#include "tools/explain/misses.hpp"
 #include "tools/explain/sentences.hpp"
 #include "tools/explain/verdict.hpp"
 
@@ -52,6 +53,14 @@ Standing lost_at(const std::string& step) {
   return at;
 }
 
+/// No vote made a proposal near it.
+Standing never_proposed() {
+  Standing at = good();
+  at.rank = 0;
+  at.way = {{"propose", 0, 500}};
+  return at;
+}
+
 }  // namespace
 
 TEST_CASE("a found object needs no cause", "[explain]") {
@@ -61,7 +70,7 @@ TEST_CASE("a found object needs no cause", "[explain]") {
 }
 
 TEST_CASE("what is not seen is not seen, and why", "[explain]") {
-  Standing at = lost_at("propose");
+  Standing at = never_proposed();
   at.seen = {};
   at.seen.supported = 0.02;
   at.seen.hidden = 0.9;
@@ -76,7 +85,7 @@ TEST_CASE("what is not seen is not seen, and why", "[explain]") {
 }
 
 TEST_CASE("each stage before the search is named by its figures", "[explain]") {
-  Standing at = lost_at("propose");
+  Standing at = never_proposed();
   at.agreeing = at.pairs = 0;
   CHECK(cause_of(at) == Cause::kDisagree);
   at.matched = 1;
@@ -85,6 +94,9 @@ TEST_CASE("each stage before the search is named by its figures", "[explain]") {
   CHECK(judge_case(missed(at)).stage == "carton");
   at.features = 3;
   CHECK(cause_of(at) == Cause::kFewFeatures);
+  at.rank = 40;  // few as they are, they were enough for a proposal
+  at.way = lost_at("glance").way;
+  CHECK(cause_of(at) == Cause::kOutranked);
 }
 
 TEST_CASE("a pose that would be sure, but was not looked at, was outranked where it went",
@@ -159,8 +171,43 @@ TEST_CASE("without the true pose a doubtful candidate is refused, a hopeless one
   at.taken = 0;
   at.judged.confidence = at.left.confidence = 0.01;
   CHECK(cause_of(at, false) == Cause::kNoTrace);
-  at.judged.confidence = at.left.confidence = 0.9;  // a deeper search found it
+  at.judged.confidence = at.left.confidence = 0.9;  // what was refined near it was not
+  CHECK(cause_of(at, false) == Cause::kMoved);
+  at.way = lost_at("glance").way;  // a deeper search found it
   CHECK(cause_of(at, false) == Cause::kOutranked);
+}
+
+TEST_CASE("what would be sure but for one clue is refused for it, where votes say it is there",
+          "[explain]") {
+  Standing at = good();
+  at.judged.confidence = at.left.confidence = 0.01;
+  at.judged.against[kOverhang] = 7;
+  at.judged.against[kVotes] = 1;
+  CHECK(at.judged.forgiven() == Approx(0.917).margin(0.001));
+  CHECK(cause_of(at, false) == Cause::kRefused);
+  CHECK(judge_case(missed(at, false)).stage == "overhang");
+  at.judged.colors_against = 8;
+  CHECK(judge_case(missed(at, false)).stage == "colors");
+  at.agreeing = at.pairs = 4;
+  CHECK(cause_of(at, false) == Cause::kNoTrace);
+  at = good();
+  at.judged.confidence = at.left.confidence = 0.01;
+  at.judged.against[kOverhang] = 7;
+  at.density = 0.4 * at.highest;  // other places have more
+  CHECK(cause_of(at, false) == Cause::kNoTrace);
+}
+
+TEST_CASE("a cause that is named without the true pose is held against it", "[explain]") {
+  Explained one;
+  one.guess = {Cause::kRefused, "overhang", ""};
+  one.verdict = {Cause::kRefused, "votes", ""};
+  CHECK_FALSE(is_confirmed(one));
+  one.best_is_true = true;  // of one pose, whichever clue is the worst of two alike
+  CHECK(is_confirmed(one));
+  one.guess = {Cause::kNoTrace, "overhang", ""};
+  CHECK_FALSE(is_confirmed(one));
+  one.verdict = {Cause::kNotSeen, "", "hidden"};
+  CHECK(is_confirmed(one));
 }
 
 TEST_CASE("sentences hold the figures", "[explain]") {

@@ -9,9 +9,11 @@
 #include "nodes/formats/units.hpp"
 #include "nodes/layouts/ground_truth.hpp"
 #include "pipelines/inputs.hpp"
+#include "tools/explain/misses.hpp"
 #include "tools/explain/picture.hpp"
 #include "tools/explain/sentences.hpp"
 #include "tools/explain/to_json.hpp"
+#include "tools/json_answer.hpp"
 
 namespace posevote {
 namespace {
@@ -32,6 +34,13 @@ Eigen::Isometry3d read_pose(const std::string& file, const std::string& unit) {
   }
 }
 
+layouts::GroundTruth ground_truth(const ExplainCommand& command, const explain::Run& run) {
+  const std::string split = run.inputs.manifest().split;
+  return as_arguments([&] {
+    return layouts::read_ground_truth(command.dataset, split.empty() ? "test" : split, "none");
+  });
+}
+
 void read_truth(const ExplainCommand& command, const explain::Run& run,
                 const explain::FrameOfRun& frame, explain::Request& request) {
   if (!command.truth.empty()) {
@@ -42,27 +51,38 @@ void read_truth(const ExplainCommand& command, const explain::Run& run,
         request.truth[model->obj_id].push_back(read_pose(command.truth, command.truth_unit));
   }
   if (command.dataset.empty()) return;
-  const std::string split = run.inputs.manifest().split;
-  const layouts::GroundTruth truth = as_arguments([&] {
-    return layouts::read_ground_truth(command.dataset, split.empty() ? "test" : split, "none");
-  });
   const SceneFile file = explain::scene_file(run, frame);
-  for (const layouts::TrueInstance& one : truth.instances)
-    if (one.scene_id == file.scene_id && one.im_id == file.im_id)
-      request.truth[one.obj_id].push_back(one.T_scene_model);
+  request.truth = explain::poses_of(ground_truth(command, run), {file.scene_id, file.im_id});
+}
+
+/// Of every scan, what was missed.
+void explain_misses(const ExplainCommand& command, const explain::Run& run,
+                    const JsonAnswer& answer) {
+  explain::Request request;
+  request.object = command.object;
+  const std::vector<explain::Miss> misses =
+      explain::misses_of(run, ground_truth(command, run), request, command.most);
+  if (answer.wanted())
+    answer.give(explain::to_json(misses));
+  else
+    std::printf("%s", explain::to_text(misses).c_str());
 }
 
 std::string only_scene(const ExplainCommand& command, const explain::Run& run) {
   if (!command.scene.empty()) return command.scene;
   if (run.frames.size() == 1) return run.frames.front().name;
   throw std::invalid_argument(command.out + ": the run has " + std::to_string(run.frames.size()) +
-                              " scans; say --scene NAME, as " + run.frames.front().name);
+                              " scans; say --scene NAME, as " + run.frames.front().name +
+                              ", or --dataset DIR for all that was missed");
 }
 
 }  // namespace
 
 int explain_command(const ExplainCommand& command) {
+  const JsonAnswer answer(command.json);
   const explain::Run run = explain::open_run(command.out, command.models);
+  const bool is_of_all = command.scene.empty() && !command.dataset.empty() && run.frames.size() > 1;
+  if (is_of_all) return explain_misses(command, run, answer), 0;
   const std::string scene = only_scene(command, run);
   explain::Request request;
   request.object = command.object;
@@ -70,14 +90,12 @@ int explain_command(const ExplainCommand& command) {
   read_truth(command, run, explain::find_frame(run.frames, scene, run.out), request);
   const Explanation explanation = explain::explain(run, scene, request);
   if (!command.picture.empty()) {
-    if (!explanation.cloud)
+    if (!explanation.taps)
       throw std::invalid_argument("--picture " + command.picture + ": the scan has failed");
-    explain::draw(explanation, run, command.picture);
+    explain::draw(explanation, command.show, command.picture);
   }
-  if (command.json)
-    std::printf("%s\n", explain::to_json(explanation)
-                            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
-                            .c_str());
+  if (answer.wanted())
+    answer.give(explain::to_json(explanation));
   else
     std::printf("%s", explain::to_text(explanation).c_str());
   return 0;

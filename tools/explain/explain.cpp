@@ -6,6 +6,7 @@
 
 #include "nodes/geometry/extent.hpp"
 #include "tools/explain/attempts.hpp"
+#include "tools/explain/best_candidate.hpp"
 #include "tools/explain/sentences.hpp"
 
 namespace posevote::explain {
@@ -42,16 +43,6 @@ Explained without_search(const std::string& model, int obj_id, const Verdict& ve
   return one;
 }
 
-/// The search with more of everything, for one object in the whole scan: what it finds beyond the
-/// run's was outranked, or its points were taken.
-poses::SegmentParams deeper(const poses::SegmentParams& params) {
-  poses::SegmentParams more = params;
-  more.terms.schedule.shortlist = std::min(10000, 4 * params.terms.schedule.shortlist);
-  more.terms.schedule.promising = std::min(10000, 5 * params.terms.schedule.promising);
-  more.terms.schedule.finalists = std::min(1000, 5 * params.terms.schedule.finalists);
-  return more;
-}
-
 class Explainer {
  public:
   Explainer(const Taps& taps, const Request& request)
@@ -65,22 +56,19 @@ class Explainer {
     std::vector<Eigen::Isometry3d> truth = true_poses(i);
     for (const poses::Instance& one : search_.instances().found) {
       if (one.object != i) continue;
-      Explained& found = all.emplace_back(named(i));
-      found.is_found = true;
-      found.best = bench_.stand(i, one.candidate.T_scene_model);
       const Alike alike(model(i), one.candidate.T_scene_model);
       const auto same = std::find_if(truth.begin(), truth.end(),
                                      [&](const auto& pose) { return alike.is_near(pose); });
-      if (same != truth.end()) {
-        found.best_is_true = true;
-        found.truth = bench_.stand(i, *same);
-        truth.erase(same);
-      }
+      if (!request_.is_of_misses)
+        all.push_back(
+            found(i, one.candidate.T_scene_model, same == truth.end() ? nullptr : &*same));
+      if (same != truth.end()) truth.erase(same);
     }
-    if (!truth.empty() || all.empty()) {
-      const std::optional<Eigen::Isometry3d> best = best_candidate(i);
+    const bool is_unseen = all.empty() && !request_.is_of_misses;
+    if (!truth.empty() || is_unseen) {
+      const std::optional<Eigen::Isometry3d> best = best_candidate(bench_, i);
       for (const Eigen::Isometry3d& pose : truth) all.push_back(missed(i, best, &pose));
-      if (all.empty()) all.push_back(missed(i, best, nullptr));
+      if (truth.empty()) all.push_back(missed(i, best, nullptr));
     }
     for (Explained& one : all) conclude(i, one);
     return all;
@@ -101,28 +89,14 @@ class Explainer {
     return one;
   }
 
-  /// The best candidate: of the run's own search or of the deeper one, or the highest mode.
-  std::optional<Eigen::Isometry3d> best_candidate(std::size_t i) const {
-    const SearchWatch alone(taps_, deeper(taps_.run.segmentation()), i);
-    const poses::Candidate* best = nullptr;
-    for (const SearchWatch* search : {&search_, &alone})
-      for (const auto* list : {&search->instances().rejected, &search->instances().found})
-        for (const poses::Instance& one : *list) {
-          if (one.object != i || is_found_near(i, one.candidate.T_scene_model)) continue;
-          if (!best || one.candidate.confidence > best->confidence) best = &one.candidate;
-        }
-    if (best) return best->T_scene_model;
-    const std::vector<Hypothesis> modes = segment::modes_of(bench_.objects[i]);
-    if (modes.empty()) return std::nullopt;
-    return T_scene_model_of(modes.front(), model(i).center);
-  }
-
-  bool is_found_near(std::size_t i, const Eigen::Isometry3d& pose) const {
-    const Alike alike(model(i), pose);
-    const auto& found = search_.instances().found;
-    return std::any_of(found.begin(), found.end(), [&](const poses::Instance& one) {
-      return one.object == i && alike.is_near(one.candidate.T_scene_model);
-    });
+  Explained found(std::size_t i, const Eigen::Isometry3d& pose,
+                  const Eigen::Isometry3d* truth) const {
+    Explained one = named(i);
+    one.is_found = true;
+    one.best = bench_.stand(i, pose);
+    one.best_is_true = truth != nullptr;
+    if (truth) one.truth = bench_.stand(i, *truth);
+    return one;
   }
 
   Explained missed(std::size_t i, const std::optional<Eigen::Isometry3d>& best,
@@ -182,11 +156,10 @@ Explanation explain(const Run& run, const std::string& scene, const Request& req
   explanation.frame = find_frame(run.frames, scene, run.out);
   const std::vector<std::size_t> wanted = wanted_objects(*run.library, request.object);
   if (explanation.frame.failure.empty()) {
-    const Taps taps(run, explanation.frame);
-    explanation.figures = taps.figures;
-    explanation.cloud = taps.cloud;
-    explanation.sentences = scan_sentences(taps.figures, taps.warnings);
-    const Explainer explainer(taps, request);
+    const auto taps = std::make_shared<const Taps>(run, explanation.frame);
+    explanation.taps = taps;
+    explanation.sentences = scan_sentences(taps->figures, taps->warnings);
+    const Explainer explainer(*taps, request);
     for (const std::size_t i : wanted)
       for (Explained& one : explainer.object(i)) explanation.objects.push_back(std::move(one));
   } else {

@@ -19,7 +19,8 @@ namespace posevote::explain {
 struct Request {
   std::string object;                                   ///< name or obj_id; empty: all
   std::map<int, std::vector<Eigen::Isometry3d>> truth;  ///< true poses by obj_id; may be empty
-  bool attempt = false;  ///< runs what depends on a setting again, to see what helps
+  bool attempt = false;       ///< runs what depends on a setting again, to see what helps
+  bool is_of_misses = false;  ///< leaves out what was found, and what has no true pose
 };
 
 /// One instance, or one object that is not found, of a scan.
@@ -38,13 +39,12 @@ struct Explained {
 
 struct Explanation {
   FrameOfRun frame;
-  std::shared_ptr<const Cloud> cloud;  ///< the scan as it was prepared; null of one that failed
-  graph::Figures figures;              ///< of the scan: noise_m, spacing_m, resolution_m ...
+  std::shared_ptr<const Taps> taps;    ///< what flowed between the stages; null of a failed scan
   std::vector<std::string> sentences;  ///< of the scan as a whole
   std::vector<Explained> objects;      ///< by obj_id, the found before the missed
 };
 
-/// One scan of a run, which it runs once more. Throws std::invalid_argument for a scan or an object
+/// One scan of a run, which it runs once more. What comes out refers to `run`. Throws std::invalid_argument for a scan or an object
 /// that is not in the run.
 Explanation explain(const Run& run, const std::string& scene, const Request& request = {});
 

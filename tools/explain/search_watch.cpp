@@ -19,9 +19,10 @@ Place place_in(const Step& step, const Alike& pose) {
 }  // namespace
 
 SearchWatch::SearchWatch(const Taps& taps, const poses::SegmentParams& params,
-                         std::optional<std::size_t> only)
+                         std::optional<std::size_t> only, const Prepare& prepare)
     : steps_(taps.votes.size()) {
   poses::ScanState scan(*taps.cloud, *taps.features, taps.scale.resolution, params.terms);
+  if (prepare) prepare(scan);
   std::vector<segment::LiveVotes> objects;
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < taps.votes.size(); ++i) {

@@ -3,6 +3,7 @@
 // candidates of its object.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,10 +31,12 @@ struct Step {
 /// Watched searches over one scan.
 class SearchWatch {
  public:
+  using Prepare = std::function<void(poses::ScanState&)>;
+
   /// Searches by these parameters as segment_objects does; `only`: that object alone, so that no
-  /// other takes its points.
+  /// other takes its points; `prepare`: what is done to the scan before.
   SearchWatch(const Taps& taps, const poses::SegmentParams& params,
-              std::optional<std::size_t> only = std::nullopt);
+              std::optional<std::size_t> only = std::nullopt, const Prepare& prepare = {});
 
   const std::vector<Step>& steps(std::size_t object) const { return steps_[object]; }
   const poses::Instances& instances() const { return instances_; }

@@ -14,8 +14,8 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 int percent(double share) { return static_cast<int>(std::lround(100 * share)); }
 
-/// What each clue says when it is against a pose.
-const char* meaning_of(std::size_t clue) {
+/// What a clue says when it is against a pose.
+const char* meaning_of(const std::string& clue) {
   constexpr std::array<const char*, kClueCount> kMeanings{
       "the sensor saw something else where the object should be",
       "what is seen of it is nearly flat",
@@ -25,7 +25,9 @@ const char* meaning_of(std::size_t clue) {
       "other places have as many votes",
       "it lies off by more than the scan's other instances",
       "few of its points are seen"};
-  return kMeanings.at(clue);
+  const auto at = std::find(kClueNames.begin(), kClueNames.end(), clue);
+  if (at == kClueNames.end()) return "its colours are not those that the camera saw";
+  return kMeanings.at(static_cast<std::size_t>(at - kClueNames.begin()));
 }
 
 std::string seen_sentence(const Standing& at) {
@@ -71,17 +73,14 @@ std::string way_sentence(const Standing& at) {
   return text.empty() ? "Search: there were no proposals." : text + ".";
 }
 
-/// The clues against a pose, the worst first, in log odds.
+/// The worst of what is against a pose, in log odds.
 std::string against(const Judged& judged) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < kClueCount; ++i)
-    if (judged.against[i] > 0.3) order.push_back(i);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return judged.against[a] > judged.against[b]; });
+  constexpr std::size_t kMost = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i)
-    text += (i > 0 ? "; " : "") + std::string(kClueNames[order[i]]) +
-            format(" (-%.1f): ", judged.against[order[i]]) + meaning_of(order[i]);
+  const auto reasons = judged.reasons();
+  for (std::size_t i = 0; i < kMost && reasons[i].second > 0.3; ++i)
+    text += (i > 0 ? "; " : "") + reasons[i].first + format(" (-%.1f): ", reasons[i].second) +
+            meaning_of(reasons[i].first);
   return text;
 }
 
@@ -112,9 +111,7 @@ std::string refused_sentence(const Standing& at, const Verdict& verdict, const C
   std::string text =
       "it was judged, and refused: " +
       format("confidence %.2f of %.2f", deciding(at, of).confidence, of.min_confidence);
-  for (std::size_t i = 0; i < kClueCount; ++i)
-    if (verdict.stage == kClueNames[i]) text += std::string("; most of all ") + meaning_of(i);
-  return text;
+  return text + "; most of all " + meaning_of(verdict.stage);
 }
 
 std::string cause_of(const Verdict& verdict, const Case& of) {

@@ -2,6 +2,7 @@
 #include "tools/explain/standing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -80,28 +81,33 @@ Around votes_around(const segment::LiveVotes& object, const Eigen::Isometry3d& T
   return around;
 }
 
-/// The scan as the instances that were found left it; those that were doubtful took points, too.
-void take_out_found(const SearchWatch& search, const Taps& taps, const poses::SegmentParams& params,
-                    std::size_t object, const Alike& alike, poses::ScanState& scan) {
-  const auto take = [&](const poses::Instance& one) {
-    const bool counted = one.candidate.confidence >= params.min_confidence;
-    // A doubtful one near the pose is the pose itself.
-    if (!counted && one.object == object && alike.is_near(one.candidate.T_scene_model)) return;
-    const Model& model = taps.votes[one.object].model->at(scan.resolution);
-    const poses::InstanceParams rules = poses::instance_params(params, model, scan.resolution);
-    const bool took =
-        one.candidate.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
-        one.candidate.score() >= params.min_score;
-    if (!counted && !took) return;
-    scan.take_out(model, one.candidate.T_scene_model, rules.explained_distance);
-    if (counted)
-      scan.usual_residual.add(one.candidate.fit, scan.range_of(model, one.candidate.T_scene_model));
-  };
-  for (const poses::Instance& one : search.instances().found) take(one);
-  for (const poses::Instance& one : search.instances().rejected) take(one);
+}  // namespace
+
+std::vector<std::pair<std::string, double>> Judged::reasons() const {
+  std::vector<std::pair<std::string, double>> all;
+  for (std::size_t i = 0; i < kClueCount; ++i) all.emplace_back(kClueNames[i], against[i]);
+  all.emplace_back("colors", colors_against);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return all;
 }
 
-}  // namespace
+double Judged::forgiven() const {
+  if (confidence <= 0 || confidence >= 1) return confidence;
+  const double worst = std::max(0.0, reasons().front().second);
+  return poses::probability_of(std::log(confidence / (1 - confidence)) + worst);
+}
+
+Judged judged_as(const poses::Candidate& candidate, const poses::Terms& terms) {
+  Judged judged;
+  judged.confidence = candidate.confidence;
+  judged.score = candidate.score();
+  judged.clues = candidate.clues;
+  judged.against = poses::against(candidate.clues, terms.confidence);
+  if (candidate.color_clues)
+    judged.colors_against = -poses::log_odds_of(*candidate.color_clues, terms.color);
+  return judged;
+}
 
 Bench::Bench(const Taps& of, const SearchWatch& watched)
     : taps(of),
@@ -110,6 +116,38 @@ Bench::Bench(const Taps& of, const SearchWatch& watched)
       whole(*of.cloud, *of.features, of.scale.resolution, params.terms) {
   for (std::size_t i = 0; i < taps.votes.size(); ++i)
     objects.push_back(segment::all_votes(taps.votes[i], taps.densities[i]));
+  for (const poses::Instance& one : search.instances().found) {
+    const Model& model = taps.votes[one.object].model->at(whole.resolution);
+    explained_.push_back(
+        rows_on(model, one.candidate.T_scene_model, taps.cloud->points, taps.cloud->normals,
+                poses::instance_params(params, model, whole.resolution).explained_distance));
+  }
+}
+
+void Bench::take_out(const poses::Instance& one, poses::ScanState& scan) const {
+  const Model& model = taps.votes[one.object].model->at(scan.resolution);
+  scan.take_out(model, one.candidate.T_scene_model,
+                poses::instance_params(params, model, scan.resolution).explained_distance);
+}
+
+void Bench::take_out_found(poses::ScanState& scan) const {
+  for (const poses::Instance& one : search.instances().found) {
+    const Model& model = taps.votes[one.object].model->at(scan.resolution);
+    take_out(one, scan);
+    scan.usual_residual.add(one.candidate.fit, scan.range_of(model, one.candidate.T_scene_model));
+    scan.usual_tint.add(one.candidate.colors);
+  }
+}
+
+/// Doubtful instances took points, too; one near the pose is the pose itself.
+void Bench::take_out_doubtful(std::size_t object, const Alike& alike,
+                              poses::ScanState& scan) const {
+  for (const poses::Instance& one : search.instances().rejected) {
+    if (one.object == object && alike.is_near(one.candidate.T_scene_model)) continue;
+    if (one.candidate.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
+        one.candidate.score() >= params.min_score)
+      take_out(one, scan);
+  }
 }
 
 void Bench::count_features(std::size_t object, const poses::Sought& sought,
@@ -162,11 +200,7 @@ Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Stan
   poses::refine(sought, candidate);
   poses::polish(sought, candidate);
   T_refined = candidate.T_scene_model;
-  Judged judged;
-  judged.confidence = candidate.confidence;
-  judged.score = candidate.score();
-  judged.clues = candidate.clues;
-  judged.against = poses::against(candidate.clues, params.terms.confidence);
+  Judged judged = judged_as(candidate, params.terms);
   if (!(candidate.quality > 0)) return judged;
   const poses::FitShares shares = poses::shares_of(candidate.fit, params.terms.fit);
   judged.agreement = shares.agreement;
@@ -177,30 +211,33 @@ Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Stan
   return judged;
 }
 
-void Bench::compare_found(std::size_t object, const Alike& alike, const poses::Sought& sought,
-                          Standing& standing) const {
-  const Model& model = sought.model;
-  const std::vector<char> on = rows_on(model, standing.T_scene_model, taps.cloud->points,
-                                       taps.cloud->normals, sought.params.tolerance);
+std::vector<char> Bench::rows_near(std::size_t object,
+                                   const Eigen::Isometry3d& T_scene_model) const {
+  const poses::Sought sought = segment::sought_for(objects[object], whole, params);
+  return rows_on(sought.model, T_scene_model, taps.cloud->points, taps.cloud->normals,
+                 sought.params.tolerance);
+}
+
+void Bench::compare_found(std::size_t object, const Alike& alike, Standing& standing) const {
+  const std::vector<char> on = rows_near(object, standing.T_scene_model);
   std::vector<char> gone(on.size(), 0);
   std::size_t most = 0;
-  for (const poses::Instance& one : search.instances().found) {
-    const Model& other = taps.votes[one.object].model->at(whole.resolution);
+  for (std::size_t k = 0; k < explained_.size(); ++k) {
+    const poses::Instance& one = search.instances().found[k];
     if (one.object == object) {
       const double off = alike.distance(one.candidate.T_scene_model);
       standing.near_same = std::min(standing.near_same.value_or(off), off);
+      if (alike.is_near(one.candidate.T_scene_model)) continue;
     }
-    if (one.object == object && alike.is_near(one.candidate.T_scene_model)) continue;
-    const auto reach = poses::instance_params(params, other, whole.resolution).explained_distance;
-    std::vector<char> took =
-        rows_on(other, one.candidate.T_scene_model, taps.cloud->points, taps.cloud->normals, reach);
-    for (std::size_t i = 0; i < took.size(); ++i) {
-      took[i] = static_cast<char>(took[i] & on[i]);
-      gone[i] = static_cast<char>(gone[i] | took[i]);
+    std::size_t took = 0;
+    for (std::size_t i = 0; i < on.size(); ++i) {
+      if (!on[i] || !explained_[k][i]) continue;
+      ++took;
+      gone[i] = 1;
     }
-    if (count(took) <= most) continue;
-    most = count(took);
-    standing.taker = other.name;
+    if (took <= most) continue;
+    most = took;
+    standing.taker = taps.votes[one.object].model->name;
   }
   standing.taken = share(count(gone), count(on));
 }
@@ -221,13 +258,14 @@ Standing Bench::stand(std::size_t object, const Eigen::Isometry3d& T_scene_model
   }
   standing.judged = judge(object, whole, standing, standing.T_refined);
   poses::ScanState left(*taps.cloud, *taps.features, taps.scale.resolution, params.terms);
-  take_out_found(search, taps, params, object, alike, left);
+  take_out_found(left);
+  take_out_doubtful(object, alike, left);
   Eigen::Isometry3d T_left;
   standing.left = judge(object, left, standing, T_left);
   standing.moved = alike.distance(standing.T_refined);
   standing.turned = alike.turn(standing.T_refined);
   standing.stayed = alike.is_near(standing.T_refined);
-  compare_found(object, alike, sought, standing);
+  compare_found(object, alike, standing);
   return standing;
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/explain/search_watch.hpp"
@@ -24,7 +25,16 @@ struct Judged {
   double confidence = 0, score = 0;
   double agreement = 0, relief = 0, outline = 0, votes_per_feature = 0, rmse = 0;
   Clues clues{}, against{};
+  double colors_against = 0;  ///< what colours take from the log odds, where there are any
+
+  /// What takes how much from the log odds, the most first.
+  std::vector<std::pair<std::string, double>> reasons() const;
+  /// The confidence that it would have, were the first of these as of right detections.
+  double forgiven() const;
 };
+
+/// Of a candidate that is refined.
+Judged judged_as(const poses::Candidate& candidate, const poses::Terms& terms);
 
 struct Standing {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
@@ -58,6 +68,10 @@ class Bench {
   Bench(const Taps& taps, const SearchWatch& search);
 
   Standing stand(std::size_t object, const Eigen::Isometry3d& T_scene_model) const;
+  /// Takes what the found instances explain out of a scan.
+  void take_out_found(poses::ScanState& scan) const;
+  /// What others have of a pose: `taker`, `taken` and `near_same`.
+  void compare_found(std::size_t object, const Alike& alike, Standing& standing) const;
 
   const Taps& taps;
   const SearchWatch& search;
@@ -70,8 +84,11 @@ class Bench {
                Eigen::Isometry3d& T_refined) const;
   void count_features(std::size_t object, const poses::Sought& sought, Standing& standing) const;
   void count_votes(std::size_t object, const Alike& alike, Standing& standing) const;
-  void compare_found(std::size_t object, const Alike& alike, const poses::Sought& sought,
-                     Standing& standing) const;
+  void take_out_doubtful(std::size_t object, const Alike& alike, poses::ScanState& scan) const;
+  void take_out(const poses::Instance& one, poses::ScanState& scan) const;
+  std::vector<char> rows_near(std::size_t object, const Eigen::Isometry3d& T_scene_model) const;
+
+  std::vector<std::vector<char>> explained_;  ///< by found instance: of the scan's points, 1
 };
 
 }  // namespace posevote::explain

@@ -19,7 +19,10 @@ Json to_json(const Clues& values) {
 }
 
 Json to_json(const Judged& judged) {
+  Json against = to_json(judged.against);
+  against["colors"] = judged.colors_against;
   return {{"confidence", judged.confidence},
+          {"forgiven", judged.forgiven()},
           {"score", judged.score},
           {"agreement", judged.agreement},
           {"relief", judged.relief},
@@ -27,7 +30,7 @@ Json to_json(const Judged& judged) {
           {"votes_per_feature", judged.votes_per_feature},
           {"rmse_m", judged.rmse},
           {"clues", to_json(judged.clues)},
-          {"against", to_json(judged.against)}};
+          {"against", against}};
 }
 
 Json to_json(const std::vector<Place>& way) {
@@ -70,10 +73,6 @@ Json to_json(const Standing& standing) {
   return json;
 }
 
-Json to_json(const Verdict& verdict) {
-  return {{"cause", name_of(verdict.cause)}, {"stage", verdict.stage}, {"detail", verdict.detail}};
-}
-
 Json to_json(const Explained& one) {
   Json json{{"obj_id", one.obj_id},
             {"model", one.model},
@@ -101,13 +100,17 @@ Json to_json(const Explained& one) {
 
 nlohmann::ordered_json to_json(const Explanation& explanation) {
   Json figures = Json::object();
-  for (const auto& [name, figure] : explanation.figures)
+  for (const auto& [name, figure] : explanation.taps ? explanation.taps->figures : graph::Figures())
     figures[name] = figure.size() == 1 ? Json(figure[0]) : Json(figure);
   Json objects = Json::array();
   for (const Explained& one : explanation.objects) objects.push_back(to_json(one));
   return {{"frame", explanation.frame.number},       {"name", explanation.frame.name},
           {"file", explanation.frame.file.string()}, {"scan", figures},
           {"sentences", explanation.sentences},      {"objects", objects}};
+}
+
+nlohmann::ordered_json to_json(const Verdict& verdict) {
+  return {{"cause", name_of(verdict.cause)}, {"stage", verdict.stage}, {"detail", verdict.detail}};
 }
 
 }  // namespace posevote::explain

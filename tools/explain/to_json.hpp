@@ -10,4 +10,6 @@ namespace posevote::explain {
 /// Everything, lengths in m, angles in rad.
 nlohmann::ordered_json to_json(const Explanation& explanation);
 
+nlohmann::ordered_json to_json(const Verdict& verdict);
+
 }  // namespace posevote::explain

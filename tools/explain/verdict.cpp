@@ -9,15 +9,17 @@ namespace {
 
 // Where figures fall short. Round numbers, chosen by hand and held against misses of real and
 // simulated sets; they decide what a miss is called and nothing else.
-constexpr double kHardlySeen = 0.15;      // of the points that face the sensor, on the scan
-constexpr double kMostlyHidden = 0.55;    // of them, that say nothing
-constexpr std::size_t kFewFeatures = 15;  // on the pose
-constexpr double kFewMatched = 0.04;      // of these
-constexpr std::size_t kFewAgreeing = 5;   // correspondences and pairs that vote for the pose
-constexpr double kLikely = 0.1;           // confidence from which a candidate may be the object
-constexpr double kMuchTaken = 0.3;        // of its points, by others
-constexpr double kOddSize = 30;           // x other objects
-constexpr double kTooLarge = 3;           // x scan
+constexpr double kHardlySeen = 0.15;       // of the points that face the sensor, on the scan
+constexpr double kMostlyHidden = 0.55;     // of them, that say nothing
+constexpr std::size_t kFewFeatures = 15;   // on the pose
+constexpr double kFewMatched = 0.04;       // of these
+constexpr std::size_t kFewAgreeing = 5;    // correspondences and pairs that vote for the pose
+constexpr double kLikely = 0.1;            // confidence from which a candidate may be the object
+constexpr double kForgiven = 0.8;          // what it has but for the clue that is most against it
+constexpr std::size_t kManyAgreeing = 20;  // of a candidate, so that votes say it is there ...
+constexpr double kNearHighest = 0.5;       // ... with a density of this share of the highest
+constexpr double kOddSize = 30;            // x other objects
+constexpr double kTooLarge = 3;            // x scan
 
 /// Whether the pose was refined, and so judged, in the search.
 bool was_judged(const Standing& at) {
@@ -29,10 +31,7 @@ std::string step_that_lost(const Standing& at) {
   return at.way.empty() || at.way.back().place > 0 ? "" : at.way.back().step;
 }
 
-std::string worst_clue(const Judged& judged) {
-  const auto worst = std::max_element(judged.against.begin(), judged.against.end());
-  return kClueNames[std::size_t(worst - judged.against.begin())];
-}
+std::string worst_clue(const Judged& judged) { return judged.reasons().front().first; }
 
 /// Of what says nothing for the pose or against it, the most.
 std::string why_unseen(const Seen& seen) {
@@ -65,8 +64,9 @@ bool was_missed_narrowly(const Case& of, const Standing& at) {
   return std::min(at.judged.confidence, at.left.confidence) >= of.min_confidence;
 }
 
-/// Before anybody looked at the pose: which stage gave too little.
+/// Before anybody looked at the pose: which stage gave too little. What was proposed had enough.
 std::optional<Verdict> judge_proposal(const Standing& at) {
+  if (at.rank > 0) return std::nullopt;
   if (at.features < kFewFeatures) return Verdict{Cause::kFewFeatures, "", ""};
   if (at.agreeing + at.pairs >= kFewAgreeing) return std::nullopt;
   if (static_cast<double>(at.matched) < kFewMatched * static_cast<double>(at.features))
@@ -75,7 +75,7 @@ std::optional<Verdict> judge_proposal(const Standing& at) {
 }
 
 Verdict judge_true(const Case& of, const Standing& at) {
-  if (is_unseen(at.seen)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
+  if (is_unseen(at.seen) && !was_judged(at)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
   if (was_judged(at) && was_missed_narrowly(of, at)) return {Cause::kMoved, "", ""};
   if (was_judged(at)) return judge_refused(of, at);
   if (const auto early = judge_proposal(at)) return *early;
@@ -85,12 +85,24 @@ Verdict judge_true(const Case& of, const Standing& at) {
   return judge_refused(of, at);
 }
 
+/// Whether votes alone make it likely that the pose is the object: many, and next to none elsewhere.
+bool is_voted_for(const Standing& at) {
+  return at.agreeing + at.pairs >= kManyAgreeing && at.density >= kNearHighest * at.highest;
+}
+
 Verdict judge_candidate(const Case& of, const Standing& at) {
-  if (at.left.confidence >= of.min_confidence) return {Cause::kOutranked, step_that_lost(at), ""};
+  if (at.left.confidence >= of.min_confidence) {
+    if (was_judged(at)) return {Cause::kMoved, "", ""};
+    return {Cause::kOutranked, step_that_lost(at), ""};
+  }
   const Verdict refused = judge_refused(of, at);
+  if (refused.cause != Cause::kRefused) return refused;
   // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
-  const double confidence = (at.taken > kMuchTaken ? at.left : at.judged).confidence;
-  if (refused.cause != Cause::kRefused || confidence >= kLikely) return refused;
+  const Judged& judged = at.taken > kMuchTaken ? at.left : at.judged;
+  const bool has_votes = at.rank > 0 || at.agreeing + at.pairs >= kFewAgreeing;
+  const bool is_likely = (has_votes && judged.confidence >= kLikely) ||
+                         (is_voted_for(at) && judged.forgiven() >= kForgiven);
+  if (is_likely && !is_unseen(at.seen)) return refused;
   return {Cause::kNoTrace, worst_clue(at.judged), ""};
 }
 

@@ -10,6 +10,8 @@
 
 namespace posevote::explain {
 
+constexpr double kMuchTaken = 0.3;  ///< share of a pose's points, by others
+
 /// In the order of the stages.
 enum class Cause {
   kFound,

@@ -13,6 +13,7 @@
 #include "nodes/formats/format.hpp"
 #include "pipelines/inputs.hpp"
 #include "pipelines/library.hpp"
+#include "tools/json_answer.hpp"
 #include "tools/text.hpp"
 #include "tools/write_text.hpp"
 
@@ -164,6 +165,7 @@ void write(const Command& command, const SceneFile& scan, Trials& trials, Report
 }  // namespace
 
 int run(const Command& command) {
+  const JsonAnswer answer(command.json);
   refuse_to_overwrite(command);
   Report report;
   report.run = run_line(command);
@@ -179,8 +181,8 @@ int run(const Command& command) {
   find_settings(scans[first], report.scans[first], given, trials, report);
   find_oddities(scans, report);
   write(command, scans[first], trials, report);
-  if (command.json)
-    std::printf("%s", to_json(report).c_str());
+  if (answer.wanted())
+    answer.give(to_json(report));
   else
     std::printf("%s\nWrote %s, %s and %s.\n", to_text(report).c_str(), report.config.c_str(),
                 (fs::path(command.out) / kReadme).c_str(), report.picture.c_str());

@@ -2,6 +2,7 @@
 // `posevote init`: looks at somebody's data, says what it sees, and writes a config that works.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,7 +60,7 @@ std::string config_text(const Report& report);
 
 /// Tables and sentences for people; Markdown reads as well.
 std::string to_text(const Report& report);
-std::string to_json(const Report& report);
+nlohmann::ordered_json to_json(const Report& report);  ///< the same for programs
 
 int run(const Command& command);
 

@@ -144,8 +144,8 @@ std::string first(const Report& report) {
 nlohmann::ordered_json list(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json to_json(const ModelLook& model) {
-  nlohmann::ordered_json json{{"file", mend_utf8(model.file.string())}};
-  if (!model.unreadable.empty()) return json["unreadable"] = mend_utf8(model.unreadable), json;
+  nlohmann::ordered_json json{{"file", model.file.string()}};
+  if (!model.unreadable.empty()) return json["unreadable"] = model.unreadable, json;
   json.update({{"points", model.points},
                {"faces", model.faces},
                {"size", list(model.sides)},
@@ -158,8 +158,8 @@ nlohmann::ordered_json to_json(const ModelLook& model) {
 }
 
 nlohmann::ordered_json to_json(const ScanLook& scan) {
-  nlohmann::ordered_json json{{"file", mend_utf8(scan.file.string())}};
-  if (!scan.unreadable.empty()) return json["unreadable"] = mend_utf8(scan.unreadable), json;
+  nlohmann::ordered_json json{{"file", scan.file.string()}};
+  if (!scan.unreadable.empty()) return json["unreadable"] = scan.unreadable, json;
   json.update({{"kind", kind(scan)},
                {"points", scan.points},
                {"size", list(scan.sides)},
@@ -181,7 +181,7 @@ std::string to_text(const Report& report) {
          report.run + "\n";
 }
 
-std::string to_json(const Report& report) {
+nlohmann::ordered_json to_json(const Report& report) {
   nlohmann::ordered_json json{{"models", nlohmann::json::array()},
                               {"scans", nlohmann::json::array()},
                               {"wrong", nlohmann::json::array()},
@@ -189,15 +189,14 @@ std::string to_json(const Report& report) {
   for (const ModelLook& model : report.models) json["models"].push_back(to_json(model));
   for (const ScanLook& scan : report.scans) json["scans"].push_back(to_json(scan));
   for (const Finding& finding : report.wrong)
-    json["wrong"].push_back({{"what", finding.what},
-                             {"evidence", mend_utf8(finding.evidence)},
-                             {"config", mend_utf8(finding.remedy)}});
+    json["wrong"].push_back(
+        {{"what", finding.what}, {"evidence", finding.evidence}, {"config", finding.remedy}});
   for (const Detection& found : report.first.found)
-    json["found"].push_back({{"model", mend_utf8(found.model)}, {"confidence", found.confidence}});
+    json["found"].push_back({{"model", found.model}, {"confidence", found.confidence}});
   json["set"] = report.settings.sets();
-  json["config"] = mend_utf8(report.config);
-  json["run"] = mend_utf8(report.run);
-  return json.dump(1) + "\n";
+  json["config"] = report.config;
+  json["run"] = report.run;
+  return json;
 }
 
 }  // namespace posevote::init

@@ -3,6 +3,8 @@
 // shells' completion, and what these ask for.
 #include <iostream>
 
+#include "graph/mermaid.hpp"
+#include "pipelines/configuration.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
 #include "tools/docs/completion.hpp"
@@ -14,7 +16,7 @@ namespace posevote {
 namespace {
 
 struct DocsCommand {
-  std::string file = "nodes/README.md", completion;
+  std::string file = "nodes/README.md", completion, wiring;
   bool man = false, commands = false;
 };
 
@@ -29,9 +31,19 @@ void add_options(CLI::App& app, DocsCommand& command) {
   app.add_option("--completion", command.completion, "Print a shell's completion script instead")
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   app.add_flag("--commands", command.commands, "Print the table of tools/README.md instead");
+  app.add_option("--wiring", command.wiring,
+                 "Print a config's wiring as a drawing for Markdown (Mermaid) instead, as in "
+                 "graph/README.md; `posevote graph` is for Graphviz")
+      ->type_name("CONFIG");
+}
+
+std::string drawing_of(const std::string& config) {
+  const Configuration configuration = load_configuration(config, {}, {}, "");
+  return graph::to_mermaid({&configuration.models, &configuration.scenes});
 }
 
 int docs_command(const DocsCommand& command) {
+  if (!command.wiring.empty()) return std::cout << drawing_of(command.wiring), 0;
   const std::unique_ptr<Program> program = make_program();
   if (command.man) return std::cout << man_page(program->app), 0;
   if (command.commands) return std::cout << command_table(program->app), 0;

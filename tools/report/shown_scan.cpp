@@ -73,7 +73,7 @@ std::string show_points(const Scan& scan, std::size_t most, const std::string& i
 
 std::string show_votes(const SceneFile& scene, const ShownRun& inputs, const VotesWanted& votes,
                        std::size_t most, const std::string& id, Json& json) {
-  const ShownVotes shown =
+  const pictures::DenseVotes shown =
       votes_of(inputs.configuration(), votes.constants, scene, votes.obj_id, most);
   const Packed packed = pack_points(shown.centers, shown.heat);
   json["votes"] = to_json(packed, id);
