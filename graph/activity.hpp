@@ -2,8 +2,10 @@
 // What the nodes of a run are at, for whoever shows that it moves.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -11,9 +13,19 @@
 
 namespace posevote::graph {
 
+/// What comes out of a run that was cancelled.
+class Cancelled : public std::exception {
+ public:
+  const char* what() const noexcept override { return "cancelled"; }
+};
+
 /// The calls of nodes that are running now. May be used by several threads at a time.
 class Activity {
  public:
+  /// Once `cancelled` is true no node begins, nor one that runs once for each object with another
+  /// object, and the run throws Cancelled. Null: it never is.
+  explicit Activity(const std::atomic<bool>* cancelled = nullptr) : cancelled_(cancelled) {}
+
   struct Work {
     std::string node;
     std::string frame;        ///< its name; may be empty
@@ -32,6 +44,7 @@ class Activity {
 
     void begin_objects(std::size_t count);
     void end_object();
+    bool is_cancelled() const { return activity_ && activity_->is_cancelled(); }
 
    private:
     friend class Activity;
@@ -41,10 +54,12 @@ class Activity {
     std::list<const Call*>::iterator place_;
   };
 
+  bool is_cancelled() const { return cancelled_ && *cancelled_; }
   /// The call that has been running longest.
   std::optional<Work> longest() const;
 
  private:
+  const std::atomic<bool>* cancelled_;
   mutable std::mutex mutex_;
   std::list<const Call*> running_;  ///< in the order in which they began
 };

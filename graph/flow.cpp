@@ -52,7 +52,7 @@ class Runner {
         on_result_(on_result),
         work_(plan, constants, options),
         expected_(plan.nodes.size() + 1, 0),
-        admission_(tokens()),
+        admission_(tokens(), options.memory),
         handovers_(plan),
         entrance_(graph_),
         gate_(graph_, flow::unlimited,
@@ -62,7 +62,7 @@ class Runner {
         order_(graph_, [](const Message& message) { return message->sequence; }),
         sink_(graph_, flow::serial, [this](const Message& message) {
           leave(message);
-          admission_.leave();
+          admission_.leave(message->frame.bytes);
           return flow::continue_msg();
         }) {
     for (std::size_t i = 0; i < plan.nodes.size(); ++i) stations_.push_back(make_station(i));
@@ -111,7 +111,7 @@ class Runner {
     admission_.await_token();
     const Message message = next();
     if (!message) return false;
-    admission_.enter();
+    admission_.enter(message->frame.bytes);
     entrance_.try_put(message);
     return true;
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <optional>
@@ -20,7 +21,8 @@ struct RunOptions {
   std::size_t tokens = 0;        ///< frames in flight; 0: twice the threads
   bool stop_on_failure = false;  ///< nothing after the first failed frame is reported
   const std::atomic<bool>* interrupted = nullptr;  ///< no frame enters once it is true
-  Activity* activity = nullptr;                    ///< where the calls of nodes are told
+  Activity* activity = nullptr;  ///< where the calls of nodes are told, and may be cancelled
+  std::size_t memory = 0;        ///< [bytes] of all frames in flight, as expected; 0: any
 };
 
 struct RunSummary {
@@ -38,7 +40,7 @@ using Constants = std::map<std::string, Constant>;  ///< by the stream's name
 
 /// Runs the nodes that depend on constants alone. Returns the given constants and theirs. Throws
 /// std::runtime_error "node: what" if one of them fails.
-Constants fold_constants(const Plan& plan, Constants constants);
+Constants fold_constants(const Plan& plan, Constants constants, Activity* activity = nullptr);
 
 namespace detail {
 
@@ -46,6 +48,8 @@ namespace detail {
 struct UntypedFrame {
   FrameContext context;
   std::vector<Value> inputs;
+  std::size_t bytes = 0;
+  std::optional<std::chrono::steady_clock::time_point> since{};
 };
 
 struct UntypedResult {
@@ -55,6 +59,7 @@ struct UntypedResult {
   std::vector<Span> spans;
   std::vector<Warning> warnings;
   Figures figures;
+  std::optional<std::chrono::steady_clock::time_point> since{};
 };
 
 /// See run() in graph/runner.hpp. Throws std::invalid_argument for a constant that is missing or of

@@ -126,6 +126,8 @@ void FrameWork::attempt(std::size_t i, FrameState& state, const Work& work) {
   } catch (const EndOfRun&) {
     if (in_order(plan_.nodes[i])) closed_[i] = true;  // others run on several threads
     throw;
+  } catch (const Cancelled&) {
+    throw;
   } catch (const ObjectErrors& error) {
     state.failures[i] = {name, error.what(), error.objects};
   } catch (const std::exception& error) {
@@ -178,12 +180,18 @@ FrameContext FrameWork::context_of(std::size_t i, FrameState& state) const {
                                 state.spans[other],
                                 state.figures[other],
                                 {state.warnings[other].begin(), state.warnings[other].end()}});
+  if (state.frame.since && !context.stages.empty()) {  // figures are told by stages
+    const std::chrono::duration<double> latency =
+        std::chrono::steady_clock::now() - *state.frame.since;
+    context.stages.front().figures["latency_s"] = {latency.count()};
+  }
   return context;
 }
 
 detail::UntypedResult FrameWork::result(FrameState& state) const {
   UntypedResult result;
   result.context = state.frame.context;
+  result.since = state.frame.since;
   const std::size_t stream = std::size_t(plan_.result);
   result.result = plan_.streams[stream].constant ? constants_[stream] : state.values[stream];
   result.spans = std::move(state.spans);
@@ -202,19 +210,22 @@ double FrameWork::microseconds() const {
       .count();
 }
 
-Constants fold_constants(const Plan& plan, Constants constants) {
+Constants fold_constants(const Plan& plan, Constants constants, Activity* activity) {
   for (const PlannedNode& node : plan.nodes) {
     if (!node.constant) continue;
     std::vector<Value> inputs;
     for (const int input : node.inputs)
       inputs.push_back(find_constant(plan.streams[std::size_t(input)], constants));
     try {
-      std::vector<Value> values = call_node(node, inputs, FrameContext{});
+      Activity::Call running(activity, node.name, "");
+      std::vector<Value> values = call_node(node, inputs, FrameContext{}, nullptr, &running);
       for (std::size_t out = 0; out < values.size(); ++out) {
         if (node.outputs[out] < 0) continue;
         const Stream& stream = plan.streams[std::size_t(node.outputs[out])];
         constants[stream.name] = {stream.type, std::move(values[out])};
       }
+    } catch (const Cancelled&) {
+      throw;
     } catch (const std::exception& error) {
       throw std::runtime_error(node.name + ": " + error.what());
     }

@@ -46,7 +46,7 @@ class FrameWork {
 
   /// Lets node i work on the frame, if nothing that it waits for has failed, and releases what it
   /// has read. A node that keeps a state must see the frames one by one, in their order. Throws
-  /// EndOfRun alone.
+  /// EndOfRun and Cancelled alone.
   void visit(std::size_t i, FrameState& state);
 
   UntypedResult result(FrameState& state) const;

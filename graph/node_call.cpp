@@ -36,6 +36,7 @@ std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>
   std::vector<Slots> outputs(node.outputs.size(), Slots(count));
   std::vector<std::optional<std::string>> errors(count);
   parallel_for(count, 1, [&](std::size_t object) {
+    if (call && call->is_cancelled()) return;
     std::vector<Value> arguments = inputs;
     for (std::size_t i = 0; i < inputs.size(); ++i)
       if (node.lift[i]) arguments[i] = slots_of(inputs[i])[object];
@@ -47,6 +48,7 @@ std::vector<Value> call_lifted(const PlannedNode& node, const std::vector<Value>
     }
     if (call) call->end_object();
   });
+  if (call && call->is_cancelled()) throw Cancelled();
   std::vector<ObjectFailure> failed;
   for (std::size_t object = 0; object < count; ++object)
     if (errors[object]) failed.push_back({object, *errors[object]});
@@ -72,6 +74,7 @@ std::string reason_of(const std::exception& error) {
 
 std::vector<Value> call_node(const PlannedNode& node, const std::vector<Value>& inputs,
                              const FrameContext& context, void* state, Activity::Call* call) {
+  if (call && call->is_cancelled()) throw Cancelled();
   if (node.lifted) return call_lifted(node, inputs, context, call);
   return node.spec->call(inputs, context, node.params.get(), state);
 }

@@ -7,6 +7,7 @@
 // (in plan order) that failed; nodes behind a failed one are skipped.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -48,6 +49,10 @@ template <class... In>
 struct Frame {
   FrameContext context;
   std::tuple<In...> inputs;
+  std::size_t bytes = 0;  ///< that it is expected to take: RunOptions::memory
+  /// When it was there to be taken, where somebody waits for it. Nodes that run last are told the
+  /// figure `latency_s`, how long ago that is.
+  std::optional<std::chrono::steady_clock::time_point> since{};
 };
 
 /// What leaves: either the result or a failure.
@@ -59,6 +64,7 @@ struct FrameResult {
   std::vector<Span> spans;        ///< per node of the plan, in its order
   std::vector<Warning> warnings;  ///< in the plan's order, of a node each once
   Figures figures{};              ///< of all nodes
+  std::optional<std::chrono::steady_clock::time_point> since{};  ///< as it entered
 };
 
 /// Gives the frames one by one, then nothing. Called by one thread at a time.
@@ -85,9 +91,13 @@ namespace detail {
 
 template <class Result>
 FrameResult<Result> typed(UntypedResult&& raw) {
-  return {std::move(raw.context),  raw.failure ? nullptr : StreamTraits<Result>::share(raw.result),
-          std::move(raw.failure),  std::move(raw.spans),
-          std::move(raw.warnings), std::move(raw.figures)};
+  return {std::move(raw.context),
+          raw.failure ? nullptr : StreamTraits<Result>::share(raw.result),
+          std::move(raw.failure),
+          std::move(raw.spans),
+          std::move(raw.warnings),
+          std::move(raw.figures),
+          raw.since};
 }
 
 template <class... In>
@@ -96,7 +106,8 @@ UntypedFrame untyped(Frame<In...>&& frame) {
       std::move(frame.context),
       std::apply(
           [](auto&&... in) { return std::vector<Value>{StreamTraits<In>::wrap(std::move(in))...}; },
-          std::move(frame.inputs))};
+          std::move(frame.inputs)),
+      frame.bytes, frame.since};
 }
 
 }  // namespace detail

@@ -192,11 +192,12 @@ Configuration load_configuration(const std::string& config, const std::vector<st
 }
 
 graph::Constants constants_of(const Configuration& configuration,
-                              const std::shared_ptr<const ModelLibrary>& library) {
+                              const std::shared_ptr<const ModelLibrary>& library,
+                              graph::Activity* activity) {
   const graph::Plan& models = configuration.models;
   return graph::fold_constants(
       configuration.scenes,
-      {{models.streams[std::size_t(models.result)].name, graph::constant(library)}});
+      {{models.streams[std::size_t(models.result)].name, graph::constant(library)}}, activity);
 }
 
 std::string effective_yaml(const Configuration& configuration) {

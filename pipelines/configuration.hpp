@@ -37,9 +37,11 @@ Configuration load_configuration(const std::string& config, const std::vector<st
                                  const std::vector<graph::Override>& options = {});
 
 /// What the plan for scans takes from that for models: the library, by its stream's name, and what
-/// can be worked out of it once for all scans. Throws std::runtime_error "node: what".
+/// can be worked out of it once for all scans. Throws std::runtime_error "node: what", and
+/// graph::Cancelled by `activity`.
 graph::Constants constants_of(const Configuration& configuration,
-                              const std::shared_ptr<const ModelLibrary>& library);
+                              const std::shared_ptr<const ModelLibrary>& library,
+                              graph::Activity* activity = nullptr);
 
 /// The run's parameters as a config that reproduces it.
 std::string effective_yaml(const Configuration& configuration);

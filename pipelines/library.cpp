@@ -192,7 +192,7 @@ std::shared_ptr<const ModelLibrary> cached_library(const Configuration& configur
   const fs::path file = folder / (key + kEnding);
   const auto known = [&] { return known_library(configuration, models, file, key, bad); };
   if (auto library = known()) return library;
-  const TrainingLock lock(file);
+  const TrainingLock lock(file, activity);
   if (lock.waited())
     if (auto library = known()) return library;
   auto library = train(configuration, models, bad, activity);

@@ -22,7 +22,7 @@ inline BadModels bad_models(const std::string& on_error) {
 /// Runs the models' plan. Without the models that are left out the library is as if they had not
 /// been asked for, but for their names: training begins anew. Says on standard error what the nodes
 /// warn of. Throws std::runtime_error "node:
-/// what" if it fails, or no model is left.
+/// what" if it fails, or no model is left, and graph::Cancelled by `activity`.
 std::shared_ptr<const ModelLibrary> train(const Configuration& configuration,
                                           const ModelFiles& models,
                                           BadModels bad = BadModels::kStop,

@@ -7,14 +7,16 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 
 namespace posevote {
 namespace {
 
-/// Again where a signal came between.
-bool lock(int descriptor, int how) {
-  while (flock(descriptor, how) != 0)
-    if (errno != EINTR) return false;
+/// False where another process has it.
+bool lock(int descriptor) {
+  while (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    if (errno != EINTR) return errno != EWOULDBLOCK;
   return true;
 }
 
@@ -27,20 +29,26 @@ bool is_there(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-TrainingLock::TrainingLock(const std::filesystem::path& library) : file_(library) {
+TrainingLock::TrainingLock(const std::filesystem::path& library, const graph::Activity* activity)
+    : file_(library) {
   file_ += ".lock";
   std::error_code ignored;
   std::filesystem::create_directories(file_.parent_path(), ignored);
-  while (!take()) {
+  while (!take(activity)) {
   }
 }
 
-bool TrainingLock::take() {
+bool TrainingLock::take(const graph::Activity* activity) {
+  constexpr std::chrono::milliseconds kPatience(20);
   descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) return true;
-  if (!lock(descriptor_, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {
+  while (!lock(descriptor_)) {
     waited_ = true;
-    lock(descriptor_, LOCK_EX);
+    if (activity && activity->is_cancelled()) {
+      close(descriptor_);
+      throw graph::Cancelled();
+    }
+    std::this_thread::sleep_for(kPatience);
   }
   if (is_there(descriptor_, file_)) return true;
   close(descriptor_);

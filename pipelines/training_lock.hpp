@@ -5,13 +5,16 @@
 
 #include <filesystem>
 
+#include "graph/activity.hpp"
+
 namespace posevote {
 
 class TrainingLock {
  public:
   /// Waits until no other process has the lock of that library's file. Where its folder cannot be
-  /// written, or the file system has no locks, nobody waits.
-  explicit TrainingLock(const std::filesystem::path& library);
+  /// written, or the file system has no locks, nobody waits. Throws graph::Cancelled by `activity`,
+  /// unless null, while it waits.
+  TrainingLock(const std::filesystem::path& library, const graph::Activity* activity);
   ~TrainingLock();
   TrainingLock(const TrainingLock&) = delete;
   TrainingLock& operator=(const TrainingLock&) = delete;
@@ -21,7 +24,7 @@ class TrainingLock {
 
  private:
   /// False where somebody else takes the file away as this one gets it.
-  bool take();
+  bool take(const graph::Activity* activity);
 
   std::filesystem::path file_;
   int descriptor_ = -1;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <csignal>
+#include <iostream>
 #include <limits>
 #include <thread>
 
@@ -125,12 +126,13 @@ void remember_command(int argc, const char* const* argv) {
   command_words.assign(argv, argv + argc);
 }
 
-std::string resuming_command(bool resume) {
+void tell_interrupted(const std::string& left, bool resume) {
   std::string text;
   for (const std::string& word : command_words)
     if (!resume || (word != "--overwrite" && word != "--resume"))
       text += (text.empty() ? "" : " ") + quote_for_shell(word);
-  return resume ? text + " --resume" : text;
+  std::cerr << "interrupted: " << left << "; to go on:\n  " << text << (resume ? " --resume" : "")
+            << "\n";
 }
 
 }  // namespace posevote

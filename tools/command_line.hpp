@@ -82,7 +82,8 @@ const std::atomic<bool>& end_in_order();
 
 /// For messages: the program as it was called, and its arguments.
 void remember_command(int argc, const char* const* argv);
-/// As it can be typed to go on: `resume`: with --resume, without --overwrite.
-std::string resuming_command(bool resume);
+/// Says on standard error what is left ("3 of 12 frames are left"), and the command that goes on:
+/// `resume`: with --resume, without --overwrite.
+void tell_interrupted(const std::string& left, bool resume);
 
 }  // namespace posevote

@@ -4,7 +4,6 @@
 
 #include <iostream>
 #include <stdexcept>
-#include <thread>
 
 #include "graph/runner.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
@@ -35,38 +34,33 @@ std::vector<SceneEntry> find_scenes(const RunCommand& command, const StreamOptio
                                  : list_dataset_scenes(command.dataset, command.split);
 }
 
-graph::RunSummary run_scenes(const RunCommand& command, const Configuration& configuration,
-                             const graph::Constants& constants, stream::Scans& scans,
-                             std::size_t tokens, const std::atomic<bool>& interrupted,
+graph::RunSummary run_scenes(const RunCommand& command, const StreamOptions& options,
+                             const Configuration& configuration, const graph::Constants& constants,
+                             stream::Scans& scans, const std::atomic<bool>& interrupted,
                              std::size_t& found) {
   graph::Activity activity;
+  stream::ScanSizes sizes;
   FrameReport report(command, configuration.scenes, scans.count(), activity, interrupted);
   const auto next_frame = [&]() -> std::optional<graph::Frame<SceneFile>> {
-    const std::optional<SceneEntry> scene = scans.next();
-    if (!scene) return std::nullopt;
-    return graph::Frame<SceneFile>{
-        {scene->number, scene->name, command.out, command.seed, scene->file.path, {}},
-        {scene->file}};
+    const std::optional<stream::TakenScan> taken = scans.next();
+    if (!taken) return std::nullopt;
+    const auto& [number, name, file] = taken->entry;
+    return graph::Frame<SceneFile>{{number, name, command.out, command.seed, file.path},
+                                   {file},
+                                   sizes.expected(file),
+                                   taken->since};
   };
   const graph::RunSummary summary =
       graph::run(configuration.scenes, constants, next_frame,
-                 {tokens, command.on_error == "stop", &interrupted, &activity},
+                 {command.tokens, command.on_error == "stop", &interrupted, &activity,
+                  stream::memory_limit(options.memory)},
                  std::function([&](const graph::FrameResult<Detections>& result) {
                    report.add(result);
-                   scans.answered(result.context.number);
+                   scans.answered(*result.since);
                  }));
   report.finish();
   found = report.found();
   return summary;
-}
-
-/// Frames in flight.
-std::size_t tokens_of(const RunCommand& command, const StreamOptions& options,
-                      const std::vector<SceneEntry>& scenes) {
-  const std::size_t threads =
-      command.threads > 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
-  return stream::tokens_within(stream::memory_limit(options.memory),
-                               command.tokens > 0 ? command.tokens : 2 * threads, scenes);
 }
 
 /// Null where the scans are listed.
@@ -78,18 +72,41 @@ std::unique_ptr<stream::Scans> follow_scans(const RunCommand& command, const Str
   return std::make_unique<stream::FollowedScans>(command.scenes[0], options.real_time, interrupted);
 }
 
-/// How many are left, and the command that goes on: an experiment does so by itself.
-void tell_interrupted(const RunCommand& command, std::size_t all,
-                      const graph::RunSummary& summary) {
+/// An experiment goes on by itself.
+void tell_left(const RunCommand& command, std::size_t all, const graph::RunSummary& summary) {
   const std::size_t left = all - summary.done - summary.failed;
-  std::cerr << "interrupted: " << left << " of " << all << " frames are left"
-            << (summary.failed > 0 ? ", and those that failed" : "") << "; to go on:\n  "
-            << resuming_command(command.lines) << "\n";
+  tell_interrupted(std::to_string(left) + " of " + std::to_string(all) + " frames are left" +
+                       (summary.failed > 0 ? ", and those that failed" : ""),
+                   command.lines);
 }
 
 int exit_status(const graph::RunSummary& summary, const ModelLibrary& library, bool interrupted) {
   if (interrupted) return 130;
   return summary.failed > 0 || summary.stopped || !library.left_out.empty() ? 1 : 0;
+}
+
+/// What scans are searched for.
+struct Sought {
+  ModelFiles files;
+  std::shared_ptr<const ModelLibrary> library;
+  graph::Constants constants;
+};
+
+/// Nothing where the user has had enough meanwhile.
+std::optional<Sought> prepare(const RunCommand& command, const Configuration& configuration,
+                              const std::atomic<bool>& interrupted) try {
+  Sought sought{find_models(command), nullptr, {}};
+  sought.library =
+      as_arguments([&] { return find_library(command, configuration, sought.files, interrupted); });
+  tell_left_out(*sought.library);
+  if (!sought.library->octaves.front().index->reproducible())
+    spdlog::warn("the approximate index is built at random: results differ from run to run");
+  graph::Activity activity(&interrupted);
+  const Progress progress({"preparing the search", 0, &activity, !command.quiet});
+  sought.constants = constants_of(configuration, sought.library, &activity);
+  return sought;
+} catch (const graph::Cancelled&) {
+  return std::nullopt;
 }
 
 }  // namespace
@@ -111,38 +128,32 @@ int run_command(const RunCommand& command, const StreamOptions& options,
   auto scans = as_arguments([&] { return follow_scans(command, options, interrupted); });
   if (scenes.empty() && !scans)
     throw std::invalid_argument("no scan is left to read in this shard");
-  const ModelFiles models = find_models(command);
-  const auto library = as_arguments([&] { return find_library(command, configuration, models); });
-  tell_left_out(*library);
-  if (!library->octaves.front().index->reproducible())
-    spdlog::warn("the approximate index is built at random: results differ from run to run");
-
-  const graph::Constants constants = [&] {
-    const Progress progress({"preparing the search", 0, nullptr, !command.quiet});
-    return constants_of(configuration, library);
-  }();
+  const std::optional<Sought> sought = prepare(command, configuration, interrupted);
+  if (!sought) {
+    if (!options.follow) tell_left(command, scenes.size(), {});
+    return 130;
+  }
   const auto lock = as_arguments([&] { return RunLock(command.out); });
   as_arguments([&] {
-    begin_run(command, configuration, *library,
-              describe_run(command, configuration, models, *library, all), scenes);
+    begin_run(command, configuration, *sought->library,
+              describe_run(command, configuration, sought->files, *sought->library, all), scenes);
   });
   std::size_t found = 0;
-  const std::size_t tokens = tokens_of(command, options, scenes);
   if (!scans) scans = std::make_unique<stream::ListedScans>(std::move(scenes));
   const graph::RunSummary summary =
-      run_scenes(command, configuration, constants, *scans, tokens, interrupted, found);
+      run_scenes(command, options, configuration, sought->constants, *scans, interrupted, found);
   finish_run(command, configuration);
   if (!command.quiet && !scans->text().empty()) std::cout << scans->text() << "\n";
   std::cout << summary.done << " frames answered, " << summary.failed << " failed; " << found
             << " found; results in " << printable(command.out) << "\n"
             << std::flush;
-  if (interrupted && !options.follow) tell_interrupted(command, scans->count(), summary);
+  if (interrupted && !options.follow) tell_left(command, scans->count(), summary);
   answer.give({{"answered", summary.done},
                {"failed", summary.failed},
                {"found", found},
                {"stream", scans->json()},
                {"out", command.out}});
-  return exit_status(summary, *library, interrupted);
+  return exit_status(summary, *sought->library, interrupted);
 }
 
 }  // namespace posevote

@@ -51,7 +51,11 @@ int process_with_lock(int folder) {
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& out) {
-  std::filesystem::create_directories(out);
+  std::error_code failed;
+  std::filesystem::create_directories(out, failed);
+  if (failed)
+    throw std::runtime_error(out.string() + ": cannot be made: " + failed.message() +
+                             "; choose another --out");
   folder_ = open_folder(out);
   if (folder_ < 0 || take(folder_)) return;
   close(folder_);

@@ -48,9 +48,10 @@ ModelFiles find_models(const RunCommand& command) {
 
 std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
                                                  const Configuration& configuration,
-                                                 const ModelFiles& models) {
+                                                 const ModelFiles& models,
+                                                 const std::atomic<bool>& interrupted) {
   if (command.library.empty()) {
-    graph::Activity activity;
+    graph::Activity activity(&interrupted);
     const Progress progress(
         {"preparing " + std::to_string(models.size()) + " models", 0, &activity, !command.quiet});
     return cached_library(configuration, models,

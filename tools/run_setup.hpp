@@ -2,6 +2,7 @@
 // What the options of `run` come to, before the first scan: a configuration, models, a library.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -17,9 +18,10 @@ Configuration read_configuration(const RunCommand& command,
 /// None where they come in a library. Throws std::invalid_argument where the command names none.
 ModelFiles find_models(const RunCommand& command);
 
-/// From its file, the cache, or trained.
+/// From its file, the cache, or trained. Throws graph::Cancelled where it is interrupted.
 std::shared_ptr<const ModelLibrary> find_library(const RunCommand& command,
                                                  const Configuration& configuration,
-                                                 const ModelFiles& models);
+                                                 const ModelFiles& models,
+                                                 const std::atomic<bool>& interrupted);
 
 }  // namespace posevote

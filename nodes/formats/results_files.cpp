@@ -67,8 +67,8 @@ std::vector<std::string> hash_scans(const std::vector<ordered_json>& frames,
                               ": the scans have changed; choose another --out");
 }
 
-/// The same scans may be reached by another path, or have been moved. Leaves out frames of which
-/// nobody knows what their scan held.
+}  // namespace
+
 void check_same_scans(const fs::path& results, std::vector<ordered_json>& frames,
                       const std::map<std::size_t, SceneFile>& scans) {
   for (const ordered_json& frame : frames) {
@@ -90,6 +90,8 @@ void check_same_scans(const fs::path& results, std::vector<ordered_json>& frames
   }
   frames = std::move(sure);
 }
+
+namespace {
 
 /// In the order of the frames, each once.
 void put_in_order(std::vector<ordered_json>& frames) {

@@ -60,6 +60,13 @@ void write_content(const std::filesystem::path& out, RunContent content,
 /// Throws nlohmann::json::exception for what is no record of a frame.
 std::string difference(const nlohmann::ordered_json& frame, const SceneFile& scan);
 
+/// Of the records of frames in `file`: the same scans may be reached by another path, or have been
+/// moved. Leaves out frames of which nobody knows what their scan held. Throws std::invalid_argument
+/// where a frame's scan is another now (its name, numbers, content or camera) or is not there.
+void check_same_scans(const std::filesystem::path& file,
+                      std::vector<nlohmann::ordered_json>& frames,
+                      const std::map<std::size_t, SceneFile>& scans);
+
 /// The frames of a results.json or failures.json, in the order of its lines, by their beginnings: a
 /// long run's records are not read for it.
 std::vector<std::size_t> frame_numbers(const std::filesystem::path& file);

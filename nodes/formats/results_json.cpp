@@ -104,6 +104,9 @@ const ordered_json& about() {
       {"seconds",
        "of a frame: of the run's time its share; stages: of that, of each step. Of a detection: of "
        "segment_objects, the time spent on the search for this object, since its instance before"},
+      {"latency_s",
+       "of a frame: from when its scan was there (in a folder that is followed: complete; else: "
+       "taken) until it was answered"},
       {"rejected", "the best poses that missed a threshold, and which"},
       {"colors",
        "where the scan and the model have any, what they say for a detection, in log odds: "

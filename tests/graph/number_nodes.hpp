@@ -6,6 +6,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct Text {
 extern std::atomic<int> peak_bodies;
 /// What `keep_log` has seen: "VALUE after NODE NODE ..." or "NODE: WHAT".
 extern std::vector<std::string> logged;
+/// [s]: the figure of the frame that `keep_log` saw last.
+extern std::optional<double> logged_latency;
 /// Times `swallow` was called.
 extern std::atomic<int> swallowed;
 

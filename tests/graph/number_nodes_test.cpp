@@ -14,6 +14,7 @@ namespace posevote::test {
 std::atomic<int> peak_bodies = 0;
 std::atomic<int> swallowed = 0;
 std::vector<std::string> logged;
+std::optional<double> logged_latency;
 
 namespace {
 
@@ -120,6 +121,9 @@ void keep_log(Log& log, const Number& in, const graph::FrameContext& context, co
   for (const graph::Stage& stage : context.stages)
     if (stage.span.ran()) line += " " + stage.node;
   logged.push_back(line);
+  logged_latency.reset();
+  for (const graph::Stage& stage : context.stages)
+    if (stage.figures.contains("latency_s")) logged_latency = stage.figures.at("latency_s")[0];
 }
 void log_failure(Log&, const graph::Failure& failure, const graph::FrameContext&, const Limit&) {
   logged.push_back(failure.node + ": " + failure.what);

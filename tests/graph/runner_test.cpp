@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Order, back-pressure, interrupts, lifting, states: whatever enters leaves.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
 
 #include "tests/graph/number_nodes.hpp"
 
@@ -29,6 +31,31 @@ TEST_CASE("tokens bound the frames in flight", "[runner]") {
       options.tokens = tokens;
       run_numbers(plan, 60, options, [](const auto&) {});
       CHECK(peak_bodies <= static_cast<int>(tokens));
+    }
+  });
+}
+
+TEST_CASE("expected bytes bound the frames in flight, but for one that is too large", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead + "  wait_a_little: {in: n, out: r}\n");
+  with_threads(8, [&] {
+    for (const std::size_t bytes : {10, 40, 1000}) {
+      peak_bodies = 0;
+      std::size_t done = 0;
+      graph::RunOptions options;
+      options.tokens = 8;
+      options.memory = 100;
+      graph::run(plan, {},
+                 graph::counted(60,
+                                [bytes](std::size_t i) {
+                                  const auto n = static_cast<int>(i);
+                                  return graph::Frame<Number>{{i, "", {}, 0}, {Number{n}}, bytes};
+                                }),
+                 options, std::function([&](const NumberResult& result) {
+                   CHECK(result.result->value == static_cast<int>(done++));
+                 }));
+      CHECK(done == 60);
+      CHECK(peak_bodies <= static_cast<int>(std::clamp<std::size_t>(100 / bytes, 1, 8)));
+      if (bytes == 10) CHECK(peak_bodies > 2);
     }
   });
 }
@@ -229,6 +256,21 @@ TEST_CASE("a node that runs last knows all stages and every failure, in order", 
         if (!stop) CHECK(logged[29] == "290" + after);
       }
     });
+}
+
+TEST_CASE("a node that runs last is told how long ago the frame was there", "[runner]") {
+  const NumberPipeline plan = plan_of(kHead +
+                                      "  keep_log: {in: r}\n"
+                                      "  multiply: {in: n, out: r}\n");
+  for (const bool awaited : {false, true}) {
+    const auto now = std::chrono::steady_clock::now();
+    graph::Frame<Number> frame{{}, {Number{1}}};
+    if (awaited) frame.since = now - std::chrono::seconds(5);
+    const auto result = graph::run_one(plan, {}, frame);
+    CHECK(result.since == frame.since);
+    CHECK(logged_latency.has_value() == awaited);
+    if (awaited) CHECK(*logged_latency == Approx(5).margin(4.9));
+  }
 }
 
 TEST_CASE("no frames, and a second run of one plan", "[runner]") {

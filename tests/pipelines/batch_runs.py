@@ -32,7 +32,7 @@ def without_times(out):
     rows = re.sub(r",[^,\n]*\n", "\n", (out / "results.csv").read_text())
     frames = json.loads((out / "results.json").read_text())["frames"]
     for frame in frames:
-        for key in ("seconds", "stages", "checksum"):
+        for key in ("seconds", "latency_s", "stages", "checksum"):
             del frame[key]
         for found in frame["detections"] + frame["rejected"]:
             del found["seconds"]

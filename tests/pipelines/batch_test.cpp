@@ -54,7 +54,7 @@ struct Batch {
   nlohmann::json frames(const std::string& out) const {
     nlohmann::json results = read_json(folder / out / "results.json");
     for (nlohmann::json& frame : results["frames"]) {
-      for (const char* key : {"seconds", "stages", "checksum"}) frame.erase(key);
+      for (const char* key : {"seconds", "latency_s", "stages", "checksum"}) frame.erase(key);
       for (const char* list : {"detections", "rejected"})
         for (nlohmann::json& detection : frame[list]) detection.erase("seconds");
     }
@@ -138,6 +138,12 @@ TEST_CASE("status tells what is done, failed and left, and who is at it", "[stat
   CHECK(whole["frames_per_s"] > 0.01);
   CHECK(b.status("part1")["answered"] == 3);  // of its own shard
   CHECK(b.status("part1")["left"] == 0);
+  REQUIRE(b.run("tables", "--format csv").status == 1);
+  const nlohmann::json tables = b.status("tables");
+  CHECK(tables["answered"] == 6);
+  CHECK(tables["failed"] == 1);
+  CHECK(tables["left"] == 0);
+  CHECK(tables["frames_per_s"] > 0.01);
   const CommandResult several = run_posevote(
       b.folder, "status " + (b.folder / "part1").string() + " " + (b.folder / "part2").string());
   CHECK_THAT(several.output, Contains("all            4 answered      1 failed       0 left"));

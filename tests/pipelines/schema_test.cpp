@@ -52,6 +52,7 @@ TEST_CASE("results.json and failures.json are as their schemas say", "[run]") {
   std::size_t found = 0, symmetric = 0, rejected = 0, held = 0;
   for (const nlohmann::json& frame : results["frames"]) {
     rejected += frame["rejected"].size();
+    CHECK(frame["latency_s"].get<double>() > 0);
     for (const nlohmann::json& detection : frame["detections"]) {
       ++found;
       symmetric += detection.contains("symmetries");

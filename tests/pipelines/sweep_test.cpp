@@ -87,6 +87,51 @@ TEST_CASE("a sweep takes another's place only where it is told to", "[sweep]") {
   CHECK(sweep(arguments + " --overwrite").status == 0);
 }
 
+TEST_CASE("a sweep that was killed goes on with what is left", "[sweep]") {
+  const fs::path out = world().folder / "killed";
+  const std::string arguments = "--vary " + kConfidence + "=0.5,0.9" + out_argument("killed");
+  REQUIRE(sweep(arguments).status == 0);
+  nlohmann::json whole = read_json(out / "sweep.json");
+  const nlohmann::json status = nlohmann::json::parse(
+      run_posevote(world().folder, "status --json " + out.string()).output)["runs"][0];
+  CHECK(status["answered"] == 3);
+  CHECK(status["left"] == 0);
+  // As SIGKILL leaves it in the second scan: the first one's record, and half of another.
+  fs::remove(out / "sweep.json");
+  const std::string scans = read_text(out / "scans.json");
+  const std::size_t second = scans.find("\n{\"frame\":", scans.find("{\"frame\":"));
+  world().folder.write("killed/scans.json", scans.substr(0, second + 100));
+  CHECK(sweep(arguments).status == 2);  // not unless it is told to
+  const CommandResult resumed = sweep(arguments + " --resume");
+  INFO(resumed.output);
+  REQUIRE(resumed.status == 0);
+  nlohmann::json again = read_json(out / "sweep.json");
+  const auto first = [](const std::string& text) { return text.substr(0, text.find("},\n")); };
+  CHECK(first(read_text(out / "scans.json")) == first(scans));  // not searched again
+  for (nlohmann::json* json : {&whole, &again})
+    for (nlohmann::json& row : (*json)["rows"]) row.erase("seconds_per_scan");
+  CHECK(again == whole);
+
+  const auto refused = [&](const std::string& more, const std::string& why) {
+    const CommandResult result = sweep(more + " --resume" + out_argument("killed"));
+    INFO(result.output);
+    CHECK(result.status == 2);
+    CHECK(result.output.find(why) != std::string::npos);
+  };
+  refused("--vary " + kConfidence + "=0.5,0.8", "--vary was " + kConfidence + "=");
+  refused("--vary " + kConfidence + "=0.5,0.9 --seed 7", "--seed was 0, now 7");
+  fs::remove(out / "run.json");
+  refused("--vary " + kConfidence + "=0.5,0.9", "what the run to resume was is not known");
+}
+
+TEST_CASE("a sweep says where its report cannot be written", "[sweep]") {
+  const std::string file = world().folder.write("no_folder", "");
+  const CommandResult result = sweep("--vary " + kConfidence + "=0.5,0.9 --out " + file + "/out");
+  INFO(result.output);
+  CHECK(result.status == 2);
+  CHECK(result.output.find(file + "/out: cannot be made: Not a directory") != std::string::npos);
+}
+
 TEST_CASE("a sweep says what is wrong, and where, before it begins", "[sweep]") {
   const auto refused = [](const std::string& arguments, const std::string& text) {
     const CommandResult result = sweep(arguments + out_argument("refused"));

@@ -94,6 +94,26 @@ TEST_CASE("after Ctrl-C: what is left, and the command that goes on", "[terminal
   CHECK(frames("stopped-by-hand").size() == done + (done < 300 ? 1 : 0));
 }
 
+TEST_CASE("Ctrl-C while models are prepared ends that soon", "[terminal]") {
+  const World& w = world();
+  const std::string models = (w.folder / "many_models").string();
+  fs::create_directories(models);
+  for (int i = 0; i < 40; ++i)
+    fs::copy_file(w.models / "obj_000001.ply", models + "/part" + std::to_string(100 + i) + ".ply",
+                  fs::copy_options::skip_existing);
+  const fs::path out = w.folder / "prepared";
+  const CommandResult run = run_on_terminal(
+      "XDG_CACHE_HOME='" + out.string() +
+      "' TERM=dumb timeout --preserve-status --foreground -s INT 1 '" + POSEVOTE_BINARY +
+      "' run demo --models " + models + " --out " + (out / "out").string() + " " + one_scan());
+  INFO(run.output);
+  CHECK(run.status == 130);
+  CHECK_THAT(screen_of(run.output), Contains("interrupted: 1 of 1 frames are left; to go on:\n  "));
+  CHECK(fs::exists(out / "posevote"));    // it had begun
+  CHECK(fs::is_empty(out / "posevote"));  // and made no library
+  CHECK_FALSE(fs::exists(out / "out"));
+}
+
 TEST_CASE("closed standard output and input take no file's place", "[terminal]") {
   const World& w = world();
   REQUIRE(w.run("open", one_scan()).status == 0);

@@ -19,7 +19,7 @@ TEST_CASE("one makes a library at a time, and who waited for it knows", "[pipeli
     std::vector<std::jthread> threads;
     for (int i = 0; i < 6; ++i)
       threads.emplace_back([&] {
-        const TrainingLock lock(library);
+        const TrainingLock lock(library, nullptr);
         waited += lock.waited();
         most = std::max(most.load(), ++inside);
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
@@ -34,7 +34,20 @@ TEST_CASE("one makes a library at a time, and who waited for it knows", "[pipeli
 TEST_CASE("where nothing can be written nobody waits for a library", "[pipelines]") {
   const TemporaryFolder folder;
   const std::string no_folder = folder.write("file", "");
-  const TrainingLock one(no_folder + "/key.library");
-  const TrainingLock other(no_folder + "/key.library");
+  const TrainingLock one(no_folder + "/key.library", nullptr);
+  const TrainingLock other(no_folder + "/key.library", nullptr);
   CHECK_FALSE(other.waited());
+}
+
+TEST_CASE("who waits for a library may have enough of it", "[pipelines]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path library = folder / "key.library";
+  const TrainingLock other(library, nullptr);
+  std::atomic<bool> cancelled = false;
+  const graph::Activity activity(&cancelled);
+  std::jthread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    cancelled = true;
+  });
+  CHECK_THROWS_AS(TrainingLock(library, &activity), graph::Cancelled);
 }

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/temporary_folder.hpp"
-#include "tools/median.hpp"
+#include "tools/quantiles.hpp"
 #include "tools/report/html.hpp"
 #include "tools/report/template.hpp"
 #include "tools/text.hpp"
@@ -21,6 +21,11 @@ TEST_CASE("base64 and the median are as everyone has them", "[report]") {
   CHECK(median({}) == 0);
   CHECK(median({3, 1, 2}) == 2);
   CHECK(median({4, 1, 3, 2}) == 2.5);
+  CHECK(quantile({}, 0.5) == 0);
+  CHECK(quantile({4, 1, 3, 2}, 0) == 1);
+  CHECK(quantile({4, 1, 3, 2}, 0.5) == 2);
+  CHECK(quantile({4, 1, 3, 2}, 0.51) == 3);
+  CHECK(quantile({4, 1, 3, 2}, 0.99) == 4);
 }
 
 TEST_CASE("text from elsewhere cannot become markup", "[report]") {

@@ -103,7 +103,8 @@ formats::FrameReport frame(std::size_t number, const std::string& name) {
           {"scans/" + name + ".ply", 0, static_cast<int>(number), {}},
           1.0 + static_cast<double>(number),
           {{"load_scene", 0.25}, {"match_features", 0.75}},
-          name};
+          name,
+          {{"latency_s", {0.5 * static_cast<double>(number + 1)}}}};
 }
 
 /// A run of three frames and a failure, the scans of which are gone.
@@ -141,7 +142,9 @@ TEST_CASE("a run: scans, models, times, failures, parameters", "[report]") {
                        Contains("<dt>frames failed</dt><dd>1</dd>") &&
                        Contains("<dt>detections</dt><dd>3</dd>") &&
                        Contains("<dt>median time of a frame</dt><dd>2.00 s</dd>") &&
-                       Contains("<dt>longest</dt><dd>3.00 s</dd>"));
+                       Contains("<dt>longest</dt><dd>3.00 s</dd>") &&
+                       Contains("<dt>latency of a frame</dt>"
+                                "<dd>1 s median, 1.5 s 95 %, 1.5 s 99 %</dd>"));
   // chef: two detections in two frames, their confidences in one bar.
   CHECK_THAT(page,
              Contains("<tr><td>chef</td><td class=\"number\">2</td><td class=\"number\">2</td>"

@@ -112,8 +112,10 @@ TEST_CASE("what settings have in common runs once", "[sweep]") {
   CHECK(late_calls == 3);
   CHECK(number_in(stages.run({value_of(1)}, {})[2]) == 25);  // nothing of the frame before
   CHECK(early_calls == 4);
-  CHECK(stages.calls().at("sweep_late").asked == 8);
-  CHECK(stages.calls().at("sweep_late").made == 6);
+  const SharedStages::AllCalls calls = stages.take_calls();
+  CHECK(calls.at("sweep_late").asked == 8);
+  CHECK(calls.at("sweep_late").made == 6);
+  CHECK(stages.take_calls().empty());
 }
 
 TEST_CASE("another constant is another answer", "[sweep]") {

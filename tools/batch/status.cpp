@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <stdexcept>
 
+#include "nodes/formats/json_text.hpp"
 #include "nodes/formats/results_files.hpp"
 #include "tools/batch/batch.hpp"
 #include "tools/json_answer.hpp"
@@ -21,6 +24,31 @@ using Frames = std::set<std::size_t>;
 Frames frames_in(const fs::path& file) {
   const std::vector<std::size_t> numbers = formats::frame_numbers(file);
   return {numbers.begin(), numbers.end()};
+}
+
+/// Those that have left the run; of one that writes tables alone, which do not name a frame in which
+/// nothing is found.
+Frames frames_in_trace(const fs::path& out, const Manifest& run) {
+  std::map<std::string, std::size_t> numbers;
+  for (const SceneEntry& scan : run.scans) numbers[scan.name] = scan.number;
+  Frames frames;
+  std::ifstream stream(out / "trace.json", std::ios::binary);
+  for (std::string line; std::getline(stream, line);) try {
+      if (line.ends_with(',')) line.pop_back();
+      const auto event = formats::parse_json<nlohmann::json>(line);
+      const auto frame = numbers.find(event.at("args").at("frame").get<std::string>());
+      if (frame != numbers.end()) frames.insert(frame->second);
+    } catch (const std::exception&) {  // no event: the list's ends, what a killed run has torn
+    }
+  return frames;
+}
+
+Frames answered_frames(const fs::path& out, const Manifest& run) {
+  for (const char* file : kAnswerFiles)
+    if (fs::exists(out / file)) return frames_in(out / file);
+  Frames frames = frames_in_trace(out, run);
+  for (const std::size_t failed : frames_in(out / "failures.json")) frames.erase(failed);
+  return frames;
 }
 
 /// Frames that the starts of a run were to answer.
@@ -47,9 +75,9 @@ double written_at(const fs::path& file) {
 
 double rate_of(const RunStatus& status, const RunStart& start) {
   const std::size_t since = status.done + status.failed - std::min(start.answered, status.done);
-  const double until = status.is_running ? seconds_since_1970(std::chrono::system_clock::now())
-                                         : std::max(written_at(status.out / "results.json"),
-                                                    written_at(status.out / "failures.json"));
+  double until = status.is_running ? seconds_since_1970(std::chrono::system_clock::now()) : 0;
+  for (const char* file : {"results.json", "scans.json", "trace.json", "failures.json"})
+    until = std::max(until, written_at(status.out / file));
   return until > start.time ? static_cast<double>(since) / (until - start.time) : 0;
 }
 
@@ -84,7 +112,7 @@ RunStatus read_status(const fs::path& out) {
     throw std::invalid_argument(
         out.string() + ": no run.json in it; expected the --out folder of a `posevote run`");
   const RunStart& start = run->starts.back();
-  const Frames done = frames_in(out / "results.json");
+  const Frames done = answered_frames(out, *run);
   Frames failed = frames_in(out / "failures.json");
   std::erase_if(failed, [&done](std::size_t frame) { return done.contains(frame); });
   RunStatus status;

@@ -11,7 +11,7 @@
 #include "pipelines/library.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/experiment/experiment.hpp"
-#include "tools/median.hpp"
+#include "tools/quantiles.hpp"
 
 namespace posevote {
 

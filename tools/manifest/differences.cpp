@@ -93,8 +93,10 @@ void take_up(const std::filesystem::path& out, Manifest& now) {
     throw std::runtime_error(error.what() + unknown);
   }
   if (!before) {
-    if (formats::read_frames(out / "results.json", "frame").items.empty()) return;
-    throw std::invalid_argument(file + ": is not there" + unknown);
+    for (const char* answers : kAnswerFiles)
+      if (!formats::read_frames(out / answers, "frame").items.empty())
+        throw std::invalid_argument(file + ": is not there" + unknown);
+    return;
   }
   const std::vector<std::string> all = differences(*before, now);
   if (!all.empty())

@@ -16,6 +16,9 @@
 
 namespace posevote {
 
+/// Where a run and a sweep keep what is answered, a line for each frame.
+inline constexpr const char* kAnswerFiles[] = {"results.json", "scans.json"};
+
 /// A model that a run looked for.
 struct SoughtModel {
   int obj_id = 0;

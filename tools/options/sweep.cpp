@@ -36,7 +36,9 @@ void add_options(CLI::App& app, Options& options) {
       "Tries every combination. What settings have in common runs once a scan; each is timed as "
       "if it\nwere alone, one scan at a time. Intervals: 95 %, bootstrap over scans; a setting is "
       "worse where\nthe interval of its difference from the best, on the same scans, holds no "
-      "zero. Writes\nsweep.csv, sweep.json and sweep.svg to --out.\n\n"
+      "zero. Writes\nsweep.csv, sweep.json and sweep.svg to --out; scans.json and run.json there "
+      "say "
+      "what is done.\n\n"
       "Exit status: 0 done, 1 some scans failed or models were left out, 2 wrong usage, config or "
       "input,\n130 Ctrl-C, with the scans so far.");
   app.add_option("config", run.config,
@@ -63,7 +65,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--out", run.out, "Folder for the table and the plot")
       ->type_name("DIR")
       ->capture_default_str();
-  app.add_flag("--overwrite", run.overwrite, "Write anew what an earlier sweep wrote to --out");
+  CLI::Option* resume =
+      app.add_flag("--resume", run.resume, "Go on in an --out that a sweep has begun");
+  app.add_flag("--overwrite", run.overwrite, "Write anew what an earlier sweep wrote to --out")
+      ->excludes(resume);
   app.add_option("--pipeline", run.pipeline,
                  "Other wiring than the config's, as `posevote configs` lists (ransac ...)")
       ->type_name("PIPELINE");

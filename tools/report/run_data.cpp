@@ -80,6 +80,7 @@ Json to_json(const AnsweredFrame& frame, ModelList& models) {
             {"name", frame.name},
             {"file", frame.file},
             {"seconds", rounded(frame.seconds)},
+            {"latency", rounded(frame.latency)},
             {"warnings", frame.warnings},
             {"stages", rounded(frame.stages)},
             {"found", Json::array()},

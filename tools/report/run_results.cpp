@@ -80,6 +80,7 @@ AnsweredFrame to_frame(const Json& json) {
   frame.scene_id = whole(json, "scene_id");
   frame.im_id = whole(json, "im_id");
   frame.seconds = number(json, "seconds");
+  frame.latency = number(json, "latency_s");
   for (const Json& found : member(json, "detections")) frame.found.push_back(to_object(found));
   for (const Json& best : member(json, "rejected")) frame.rejected.push_back(to_object(best));
   for (const Json& warning : member(json, "warnings"))

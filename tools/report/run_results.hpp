@@ -30,7 +30,7 @@ struct AnsweredFrame {
   std::string file;
   std::string name;  ///< UTF-8
   int scene_id = 0, im_id = 0;
-  double seconds = 0;
+  double seconds = 0, latency = 0;  ///< [s]
   std::vector<FoundObject> found, rejected;
   std::vector<std::string> warnings;  ///< "node: what"
   NamedNumbers stages;                ///< seconds by node

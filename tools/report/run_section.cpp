@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "nodes/formats/file_bytes.hpp"
-#include "tools/median.hpp"
+#include "tools/quantiles.hpp"
 #include "tools/report/sections.hpp"
 #include "tools/text.hpp"
 
@@ -27,10 +27,11 @@ std::string figure(const std::string& what, const std::string& value) {
 
 std::string summary(const RunResults& run) {
   std::size_t detections = 0;
-  std::vector<double> seconds;
+  std::vector<double> seconds, latencies;
   for (const AnsweredFrame& frame : run.frames) {
     detections += frame.found.size();
     if (std::isfinite(frame.seconds)) seconds.push_back(frame.seconds);
+    if (std::isfinite(frame.latency)) latencies.push_back(frame.latency);
   }
   std::string text = "<dl>\n" + figure("frames answered", std::to_string(run.frames.size())) +
                      figure("frames failed", std::to_string(run.failures.size())) +
@@ -39,6 +40,7 @@ std::string summary(const RunResults& run) {
     text += figure("median time of a frame", html::number(median(seconds), 2) + " s") +
             figure("longest",
                    html::number(*std::max_element(seconds.begin(), seconds.end()), 2) + " s");
+  if (latencies.size() > 1) text += figure("latency of a frame", latency_text(latencies));
   text += "</dl>\n";
   if (run.torn > 0)
     text += html::paragraph(fmt::format(

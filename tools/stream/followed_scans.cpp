@@ -60,7 +60,7 @@ bool FollowedScans::wait() {
   return false;
 }
 
-std::optional<TakenScan> FollowedScans::take() {
+std::optional<TakenScan> FollowedScans::next() {
   if (!wait()) return std::nullopt;
   if (real_time_) {
     left_out_ += waiting_.size() - 1;

@@ -20,9 +20,9 @@ class FollowedScans : public Scans {
   FollowedScans(const std::filesystem::path& folder, bool real_time,
                 const std::atomic<bool>& interrupted);
 
+  std::optional<TakenScan> next() override;
+
  private:
-  /// Waits for it.
-  std::optional<TakenScan> take() override;
   bool wait();
   SceneEntry entry_of(const std::filesystem::path& file);
 

@@ -7,7 +7,6 @@
 #include <bit>
 #include <climits>
 #include <fstream>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -41,18 +40,16 @@ std::size_t size_of_entry(const formats::Format& format, const std::filesystem::
   return 0;
 }
 
-/// One image of each topic stands for all: to look at each would be to read the whole file.
-bool is_like_another(const SceneEntry& scan, std::set<std::filesystem::path>& known) {
-  const std::filesystem::path& path = scan.file.path;
-  return !formats::container_of(path).empty() && !known.insert(path.parent_path()).second;
-}
-
 }  // namespace
 
-std::size_t expected_bytes(const SceneFile& file) {
+std::size_t ScanSizes::expected(const SceneFile& file) {
   if (file.points || file.depth) return 0;
-  if (const formats::Format* format = formats::find_format(file.path); format && format->entry)
-    return kBytesOfPixel * size_of_entry(*format, file.path) / sizeof(std::uint16_t);
+  if (const formats::Format* format = formats::find_format(file.path); format && format->entry) {
+    const auto [topic, is_new] = of_topics_.try_emplace(file.path.parent_path(), 0);
+    if (is_new)
+      topic->second = kBytesOfPixel * size_of_entry(*format, file.path) / sizeof(std::uint16_t);
+    return topic->second;
+  }
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(file.path, none);
   if (none) return 0;
@@ -65,15 +62,6 @@ std::size_t memory_limit(std::uint64_t asked) {
   if (asked > 0) return asked;
   return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
          static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
-std::size_t tokens_within(std::size_t memory, std::size_t tokens,
-                          const std::vector<SceneEntry>& scans) {
-  std::size_t largest = 1;
-  std::set<std::filesystem::path> known;
-  for (const SceneEntry& scan : scans)
-    if (!is_like_another(scan, known)) largest = std::max(largest, expected_bytes(scan.file));
-  return std::clamp<std::size_t>(memory / largest, 1, tokens);
 }
 
 int most_points(std::size_t memory) {

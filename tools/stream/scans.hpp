@@ -4,8 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -24,15 +22,15 @@ class Scans {
  public:
   virtual ~Scans() = default;
 
-  /// The next; nothing when no more will come.
-  std::optional<SceneEntry> next();
+  /// The next; nothing when no more will come. Waits for it.
+  virtual std::optional<TakenScan> next() = 0;
   /// How many there are; 0 where nobody knows.
   virtual std::size_t count() const { return 0; }
-  /// To be called for each that next() gave, by one thread at a time.
-  void answered(std::size_t number);
+  /// To be called for each that next() gave, with its `since`, by one thread at a time; next() may run
+  /// on another meanwhile.
+  void answered(std::chrono::steady_clock::time_point since);
 
-  /// [s]: the least latency of which it is true that `share` of the scans took no longer.
-  double latency(double share) const;
+  const std::vector<double>& latencies() const { return latencies_; }  ///< [s]
   /// "latency 0.12 s median, 0.18 s 95 %, 0.24 s 99 %; 3 behind at most, 5 left out"; "" of a single
   /// scan.
   std::string text() const;
@@ -43,22 +41,17 @@ class Scans {
   std::size_t left_out_ = 0;
 
  private:
-  virtual std::optional<TakenScan> take() = 0;
-
-  std::mutex mutex_;  ///< of since_: scans are taken and answered on different threads
-  std::map<std::size_t, std::chrono::steady_clock::time_point> since_;
-  std::vector<double> latencies_;  ///< [s]
+  std::vector<double> latencies_;
 };
 
 /// Those that are there when the run begins; each has waited for nobody before it is taken.
 class ListedScans : public Scans {
  public:
   explicit ListedScans(std::vector<SceneEntry> scans) : scans_(std::move(scans)) {}
+  std::optional<TakenScan> next() override;
   std::size_t count() const override { return scans_.size(); }
 
  private:
-  std::optional<TakenScan> take() override;
-
   std::vector<SceneEntry> scans_;
   std::size_t taken_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/plan.hpp"
@@ -45,7 +46,9 @@ class SharedStages {
   struct Calls {
     std::size_t asked = 0, made = 0;
   };
-  const std::map<std::string, Calls>& calls() const { return calls_; }
+  using AllCalls = std::map<std::string, Calls>;
+  /// Those since it was asked last.
+  AllCalls take_calls() { return std::exchange(calls_, {}); }
 
  private:
   struct Step {
@@ -77,7 +80,7 @@ class SharedStages {
   std::map<std::string, std::size_t> ids_;
   std::vector<Way> ways_;
   std::map<std::size_t, std::size_t> last_;  ///< by id: the last way that has such a step
-  std::map<std::string, Calls> calls_;
+  AllCalls calls_;
 };
 
 }  // namespace posevote::sweep

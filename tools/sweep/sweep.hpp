@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ struct SweepCommand {
   std::size_t every = 1;  ///< one scan of so many
 };
 
-/// Prints a table for each rule and writes sweep.json, sweep.csv and sweep.svg to `out`. Status 1
-/// where a scan failed or a model was left out, 130 where it was interrupted, with the scans so far.
+/// Prints a table for each rule and writes sweep.json, sweep.csv and sweep.svg to `out`, beside
+/// run.json and scans.json, by which it can be gone on with. Status 1 where a scan failed or a model
+/// was left out, 130 where it was interrupted, with the scans so far.
 int sweep_command(const SweepCommand& command, const std::atomic<bool>& interrupted);
 
 namespace sweep {
@@ -56,11 +58,16 @@ struct Sweep {
   std::vector<Setting> settings;
   std::vector<Judged> rules;
   std::size_t images = 0;
-  std::map<std::string, SharedStages::Calls> calls;
+  SharedStages::AllCalls calls;
 };
 
 /// What settings are compared by: F1, which an average recall does not have.
 inline Figure figure_of(const Rule& rule) { return rule.average() ? &Counts::recall : &Counts::f1; }
+
+/// By every rule that the options name, over those images.
+std::vector<Judged> judge(const layouts::GroundTruth& truth, const EvaluateOptions& options,
+                          const std::vector<Setting>& settings,
+                          const std::set<layouts::ImageKey>& images, std::uint64_t seed);
 
 std::string to_text(const Sweep& sweep);
 /// One row for each rule and setting, of plain values.

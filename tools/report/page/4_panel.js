@@ -133,7 +133,10 @@ posevote.panel = (() => {
   /// Fills `panel` anew.
   function fill(panel, run, scan, parts, stage) {
     const children = [make('h4', {}, scan.name), make('p', {}, scan.file)];
-    if (Number.isFinite(scan.seconds)) children.push(make('p', {}, `${digits(scan.seconds, 2)} s`));
+    if (Number.isFinite(scan.seconds)) {
+      const wait = Number.isFinite(scan.latency) ? `, answered after ${digits(scan.latency, 2)} s` : '';
+      children.push(make('p', {}, `${digits(scan.seconds, 2)} s${wait}`));
+    }
     if (scan.failure)
       children.push(make('p', {className: 'bad'}, `Failed in ${scan.failure.node}: ${scan.failure.what}`));
     if (scan.note) children.push(make('p', {className: 'bad'}, scan.note));
