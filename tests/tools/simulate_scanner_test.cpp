@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/surface_nets.hpp"
@@ -22,6 +23,35 @@ Body ball(double radius, const Eigen::Vector3d& center) {
 }
 
 const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
+
+/// A wall 1 m away that steps back in the middle of each row, at column 320.
+TrueDepth step_back(const Sensor& sensor, double behind) {
+  const std::size_t pixels = sensor.width * sensor.height;
+  TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (i % sensor.width >= 320) truth.depth[i] = behind;
+  return truth;
+}
+
+/// How far from there each row has its first pixel that reports at least as much.
+std::vector<double> steps_off(const formats::DepthImage& image, std::uint16_t least) {
+  std::vector<double> off;
+  for (std::size_t v = 0; v < image.height; ++v) {
+    std::size_t edge = 300;
+    while (image.values[v * image.width + edge] < least) ++edge;
+    off.push_back(static_cast<double>(edge) - 320);
+  }
+  return off;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double square_of(const std::vector<double>& values) {
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+         static_cast<double>(values.size());
+}
 
 }  // namespace
 
@@ -135,10 +165,8 @@ TEST_CASE("pixels of a speckle camera share their errors with their neighbours",
   sensor.noise_z2 = sensor.disparity_step = 0;
   sensor.holes = 0;
   const std::size_t pixels = sensor.width * sensor.height;
-  TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
-  for (std::size_t i = 0; i < pixels; ++i)
-    if (i % sensor.width >= 320) truth.depth[i] = 1.01;  // no shadow behind so low a step
-  const formats::DepthImage image = take_image(truth, sensor, 3);
+  const formats::DepthImage image =
+      take_image(step_back(sensor, 1.01), sensor, 3);  // no shadow behind so low a step
   double squares = 0, beside = 0, apart = 0;
   for (std::size_t i = 0; i + 300 < pixels; ++i) {
     if (i % sensor.width >= 300) continue;
@@ -152,16 +180,10 @@ TEST_CASE("pixels of a speckle camera share their errors with their neighbours",
   CHECK(beside / squares > 0.9);
   CHECK(std::abs(apart / squares) < 0.1);
   // Errors are some millimetres, the step ten: where it lies in each row can be told.
-  double mean = 0, spread = 0;
-  for (std::size_t v = 0; v < sensor.height; ++v) {
-    std::size_t edge = 300;
-    while (image.values[v * sensor.width + edge] < 10050) ++edge;
-    mean += static_cast<double>(edge) / static_cast<double>(sensor.height);
-    spread += std::pow(static_cast<double>(edge) - 320, 2) / static_cast<double>(sensor.height);
-  }
-  CHECK(mean == Approx(320).margin(1.5));
-  CHECK(std::sqrt(spread) > 0.4);
-  CHECK(std::sqrt(spread) < 3);
+  const std::vector<double> off_step = steps_off(image, 10050);
+  CHECK(320 + mean_of(off_step) == Approx(320).margin(1.5));
+  CHECK(std::sqrt(square_of(off_step)) > 0.4);
+  CHECK(std::sqrt(square_of(off_step)) < 3);
 }
 
 TEST_CASE("what stands in front of a speckle camera ends some pixels beside its edge",
@@ -169,23 +191,12 @@ TEST_CASE("what stands in front of a speckle camera ends some pixels beside its 
   Sensor sensor = find_sensor("speckle");
   sensor.edge_jump = 0;
   sensor.holes = 0;
-  const std::size_t pixels = sensor.width * sensor.height;
-  TrueDepth truth{std::vector<double>(pixels, 1.0), std::vector<double>(pixels, 1.0)};
-  for (std::size_t i = 0; i < pixels; ++i)
-    if (i % sensor.width >= 320) truth.depth[i] = 1.2;
-  const formats::DepthImage image = take_image(truth, sensor, 3);
-  double mean = 0, squares = 0;
-  for (std::size_t v = 0; v < sensor.height; ++v) {
-    std::size_t edge = 300;
-    while (image.values[v * sensor.width + edge] < 11000) ++edge;
-    const double off = static_cast<double>(edge) - 320;
-    mean += off / static_cast<double>(sensor.height);
-    squares += off * off / static_cast<double>(sensor.height);
-  }
+  const std::vector<double> off = steps_off(take_image(step_back(sensor, 1.2), sensor, 3), 11000);
+  const double mean = mean_of(off), spread = std::sqrt(square_of(off) - mean * mean);
   CHECK(mean > 0.3);
   CHECK(mean < 3);
-  CHECK(std::sqrt(squares - mean * mean) > 1.2);
-  CHECK(std::sqrt(squares - mean * mean) < 3.5);
+  CHECK(spread > 1.2);
+  CHECK(spread < 3.5);
 }
 
 TEST_CASE("the sweep leaves rows out, unevenly", "[simulate]") {

@@ -44,8 +44,8 @@ struct Explanation {
   std::vector<Explained> objects;      ///< by obj_id, the found before the missed
 };
 
-/// One scan of a run, which it runs once more. What comes out refers to `run`. Throws std::invalid_argument for a scan or an object
-/// that is not in the run.
+/// One scan of a run, which it runs once more. What comes out refers to `run`. Throws
+/// std::invalid_argument for a scan or an object that is not in the run.
 Explanation explain(const Run& run, const std::string& scene, const Request& request = {});
 
 }  // namespace posevote::explain

@@ -116,12 +116,9 @@ Bench::Bench(const Taps& of, const SearchWatch& watched)
       whole(*of.cloud, *of.features, of.scale.resolution, params.terms) {
   for (std::size_t i = 0; i < taps.votes.size(); ++i)
     objects.push_back(segment::all_votes(taps.votes[i], taps.densities[i]));
-  for (const poses::Instance& one : search.instances().found) {
-    const Model& model = taps.votes[one.object].model->at(whole.resolution);
-    explained_.push_back(
-        rows_on(model, one.candidate.T_scene_model, taps.cloud->points, taps.cloud->normals,
-                poses::instance_params(params, model, whole.resolution).explained_distance));
-  }
+  for (const poses::Instance& one : search.instances().found)
+    explained_.push_back(rows_near(one.object, one.candidate.T_scene_model,
+                                   &poses::InstanceParams::explained_distance));
 }
 
 void Bench::take_out(const poses::Instance& one, poses::ScanState& scan) const {
@@ -211,15 +208,16 @@ Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Stan
   return judged;
 }
 
-std::vector<char> Bench::rows_near(std::size_t object,
-                                   const Eigen::Isometry3d& T_scene_model) const {
-  const poses::Sought sought = segment::sought_for(objects[object], whole, params);
-  return rows_on(sought.model, T_scene_model, taps.cloud->points, taps.cloud->normals,
-                 sought.params.tolerance);
+std::vector<char> Bench::rows_near(std::size_t object, const Eigen::Isometry3d& T_scene_model,
+                                   float poses::InstanceParams::*distance) const {
+  const Model& model = taps.votes[object].model->at(whole.resolution);
+  return rows_on(model, T_scene_model, taps.cloud->points, taps.cloud->normals,
+                 poses::instance_params(params, model, whole.resolution).*distance);
 }
 
 void Bench::compare_found(std::size_t object, const Alike& alike, Standing& standing) const {
-  const std::vector<char> on = rows_near(object, standing.T_scene_model);
+  const std::vector<char> on =
+      rows_near(object, standing.T_scene_model, &poses::InstanceParams::tolerance);
   std::vector<char> gone(on.size(), 0);
   std::size_t most = 0;
   for (std::size_t k = 0; k < explained_.size(); ++k) {

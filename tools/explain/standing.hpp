@@ -86,7 +86,9 @@ class Bench {
   void count_votes(std::size_t object, const Alike& alike, Standing& standing) const;
   void take_out_doubtful(std::size_t object, const Alike& alike, poses::ScanState& scan) const;
   void take_out(const poses::Instance& one, poses::ScanState& scan) const;
-  std::vector<char> rows_near(std::size_t object, const Eigen::Isometry3d& T_scene_model) const;
+  /// Of the scan's points, 1 for those so near the posed model.
+  std::vector<char> rows_near(std::size_t object, const Eigen::Isometry3d& T_scene_model,
+                              float poses::InstanceParams::*distance) const;
 
   std::vector<std::vector<char>> explained_;  ///< by found instance: of the scan's points, 1
 };

@@ -41,7 +41,7 @@ void add_options(CLI::App& app, ExplainCommand& command) {
   app.add_option("--models", command.models, "The models, where the run did not record them")
       ->type_name("FILE");
   app.add_flag("--try", command.attempt, "Run again with settings that may help, and say which do");
-  app.add_flag("--json", command.json, "Print JSON");
+  add_json(app, command.json);
   app.add_option("--picture", command.picture, "A picture of the scan with what --show says in it")
       ->type_name("FILE.png");
   app.add_option("--show", command.show,

@@ -41,7 +41,7 @@ void add_options(CLI::App& app, init::Command& command) {
       ->capture_default_str();
   add_cache(app, command.cache);
   app.add_flag("--overwrite", command.overwrite, "Write anew what an earlier init wrote to DIR");
-  app.add_flag("--json", command.json, "Print what is seen and said as JSON");
+  add_json(app, command.json);
 }
 
 const auto registered = register_command<init::Command>(
