@@ -13,6 +13,8 @@
 
 #include "graph/plugin.hpp"
 #include "graph/runner.hpp"
+#include "nodes/data/texture.hpp"
+#include "nodes/formats/paint_files.hpp"
 #include "nodes/formats/units.hpp"
 #include "nodes/library/content_hash.hpp"
 #include "nodes/library/library_file.hpp"
@@ -43,7 +45,14 @@ std::string bytes_of(const Matrix& matrix) {
 }
 
 std::string mesh_bytes(const Mesh& mesh) {
-  return bytes_of(mesh.points) + bytes_of(mesh.normals) + bytes_of(mesh.faces);
+  std::string bytes =
+      bytes_of(mesh.points) + bytes_of(mesh.normals) + bytes_of(mesh.faces) + bytes_of(mesh.colors);
+  if (!mesh.texture) return bytes;
+  bytes += bytes_of(mesh.texture->places);
+  for (const std::uint32_t image : mesh.texture->image_of) bytes += std::to_string(image) + " ";
+  for (const ColorImage& image : mesh.texture->images)
+    bytes.append(image.values.begin(), image.values.end());
+  return bytes;
 }
 
 /// Its obj_id, name and given symmetries: bytes alone do not say which object it is.
@@ -53,8 +62,12 @@ std::string identity_of(const ModelFile& model) {
   return model.mesh ? text + mesh_bytes(*model.mesh) : text;
 }
 
+/// All that it is read from.
 std::vector<fs::path> files_of(const ModelFile& model) {
-  return model.mesh ? std::vector<fs::path>() : std::vector<fs::path>{model.path};
+  if (model.mesh) return {};
+  std::vector<fs::path> files = formats::paint_files(model.path);
+  files.insert(files.begin(), model.path);
+  return files;
 }
 
 /// The cause by the model's number. The graph numbers the objects of a node that runs once for each:

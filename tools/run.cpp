@@ -7,6 +7,7 @@
 
 #include "graph/runner.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/formats/scan_hash.hpp"
 #include "pipelines/inputs.hpp"
 #include "pipelines/library.hpp"
 #include "tools/command_line.hpp"
@@ -34,6 +35,13 @@ std::vector<SceneEntry> find_scenes(const RunCommand& command, const StreamOptio
                                  : list_dataset_scenes(command.dataset, command.split);
 }
 
+/// One that cannot be read fails as a frame.
+std::string hash_or_unknown(const SceneFile& file) try {
+  return formats::hash_scan(file);
+} catch (const std::runtime_error&) {
+  return "";
+}
+
 graph::RunSummary run_scenes(const RunCommand& command, const StreamOptions& options,
                              const Configuration& configuration, const graph::Constants& constants,
                              stream::Scans& scans, const std::atomic<bool>& interrupted,
@@ -42,9 +50,10 @@ graph::RunSummary run_scenes(const RunCommand& command, const StreamOptions& opt
   stream::ScanSizes sizes;
   FrameReport report(command, configuration.scenes, scans.count(), activity, interrupted);
   const auto next_frame = [&]() -> std::optional<graph::Frame<SceneFile>> {
-    const std::optional<stream::TakenScan> taken = scans.next();
+    std::optional<stream::TakenScan> taken = scans.next();
     if (!taken) return std::nullopt;
-    const auto& [number, name, file] = taken->entry;
+    auto& [number, name, file] = taken->entry;
+    file.hash = hash_or_unknown(file);
     return graph::Frame<SceneFile>{{number, name, command.out, command.seed, file.path},
                                    {file},
                                    sizes.expected(file),

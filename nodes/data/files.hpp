@@ -43,6 +43,7 @@ struct SceneFile {
   std::shared_ptr<const LoadedPoints> points{};  ///< in the file's place, or null
   std::shared_ptr<const LoadedDepth> depth{};    ///< the same of a depth image
   std::filesystem::path color{};  ///< image of a depth image's colours, registered to it, or empty
+  std::string hash{};  ///< formats::hash_scan of it, before anybody reads it; empty: not known
 };
 
 /// One object model.

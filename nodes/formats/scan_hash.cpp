@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "nodes/formats/format.hpp"
+#include "nodes/formats/paint_files.hpp"
 #include "nodes/formats/sensor_pose.hpp"
 #include "nodes/library/content_hash.hpp"
 
@@ -19,6 +20,8 @@ std::string hash_scan(const SceneFile& scan) {
   const fs::path pose = pose_file_of(scan.path);
   std::error_code is_loop;
   if (fs::exists(fs::symlink_status(pose, is_loop))) files.push_back(pose);
+  if (!scan.color.empty()) files.push_back(scan.color);
+  for (fs::path& paint : paint_files(scan.path)) files.push_back(std::move(paint));
   return library::hash_files(files, "");
 }
 

@@ -7,7 +7,8 @@
 
 namespace posevote::formats {
 
-/// library::hash_files of a scan's file, and of the one beside it that says where the sensor stood.
+/// library::hash_files of a scan's file, of the one beside it that says where the sensor stood, and of
+/// those that hold its colours.
 /// "" where the scan is in memory. Throws std::runtime_error naming a file that cannot be read.
 std::string hash_scan(const SceneFile& scan);
 

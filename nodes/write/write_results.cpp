@@ -10,11 +10,9 @@
 //
 //   write_results: {in: [scene_file, detections], format: [json, csv, bop]}
 #include <optional>
-#include <stdexcept>
 
 #include "graph/registry.hpp"
 #include "nodes/formats/results_writer.hpp"
-#include "nodes/formats/scan_hash.hpp"
 
 namespace posevote::write {
 namespace {
@@ -51,10 +49,7 @@ formats::FrameReport report_of(const SceneFile& file, const graph::FrameContext&
     for (const std::string& what : stage.warnings) report.warnings.push_back({stage.node, what});
   }
   report.seconds = graph::cost(spans);
-  try {
-    report.scan_hash = formats::hash_scan(file);
-  } catch (const std::runtime_error&) {  // it has gone meanwhile: nobody can say what it held
-  }
+  report.scan_hash = file.hash;
   return report;
 }
 

@@ -30,11 +30,19 @@ struct BegunRun {
     if (!fs::exists(begun / "out")) {
       fs::copy(world().folder / "data", begun / "set", fs::copy_options::recursive);
       fs::remove_all(begun / "set/scans");
+      name_an_image(begun);
       const CommandResult first = run_in(begun, "--shard 1/3");
       INFO(first.output);
       REQUIRE(first.status == 0);
     }
     fs::copy(begun.path(), folder.path(), fs::copy_options::recursive);
+  }
+
+  /// That the model's colours are in; it is not there.
+  static void name_an_image(const TemporaryFolder& place) {
+    const std::string model = "set/models/obj_000001.ply";
+    std::string ply = read_text(place / model);
+    place.write(model, ply.insert(ply.find("element"), "comment TextureFile paint.png\n"));
   }
 
   CommandResult run_in(const TemporaryFolder& place, const std::string& more) const {
@@ -80,6 +88,9 @@ const std::vector<Change>& changes() {
                           run.text("set/test/000001/depth/000001.png"));
        },
        "000000.png holds something else now"},
+      {"a scan's colours",
+       [](BegunRun& run) { run.folder.write("set/test/000001/rgb/000000.png", "colours"); },
+       "000000.png holds something else now"},
       {"a scan's camera",
        [](BegunRun& run) {
          run.replace("set/test/000001/scene_camera.json", "\"cam_K\":[", "\"cam_K\":[1");
@@ -96,6 +107,9 @@ const std::vector<Change>& changes() {
        [](BegunRun& run) {
          run.folder.write("set/models/obj_000001.ply", run.text("set/models/obj_000002.ply"));
        },
+       "the model 1 (obj_000001) was content "},
+      {"a model's colours",
+       [](BegunRun& run) { run.folder.write("set/models/paint.png", "colours"); },
        "the model 1 (obj_000001) was content "},
       {"a model more",
        [](BegunRun& run) {

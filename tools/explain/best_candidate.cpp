@@ -8,6 +8,10 @@
 namespace posevote::explain {
 namespace {
 
+constexpr std::size_t kMostCandidates = 5;
+/// Of a second candidate: on points of its own, and but for one clue as likely as not.
+constexpr double kWorthNaming = 1.5;
+
 /// The search with more of everything, which refines what the run's would have passed over.
 poses::SegmentParams deeper(const poses::SegmentParams& params) {
   poses::SegmentParams more = params;
@@ -62,20 +66,27 @@ bool is_found(const Bench& bench, std::size_t object, const Eigen::Isometry3d& T
 
 }  // namespace
 
-std::optional<Eigen::Isometry3d> best_candidate(const Bench& bench, std::size_t object) {
-  std::optional<Eigen::Isometry3d> best;
-  double most = -1;
-  for (const poses::Candidate& one : looked_at(bench, object)) {
-    if (is_found(bench, object, one.T_scene_model)) continue;
-    const double promised = promise(bench, object, one);
-    if (promised <= most) continue;
-    most = promised;
-    best = one.T_scene_model;
+std::vector<Eigen::Isometry3d> best_candidates(const Bench& bench, std::size_t object) {
+  const Model& model = *bench.taps.votes[object].model;
+  std::vector<std::pair<double, Eigen::Isometry3d>> all;
+  for (const poses::Candidate& one : looked_at(bench, object))
+    if (!is_found(bench, object, one.T_scene_model))
+      all.emplace_back(promise(bench, object, one), one.T_scene_model);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  const double apart = bench.params.nms * static_cast<double>(model.diagonal);
+  std::vector<Eigen::Isometry3d> best;
+  for (const auto& [promised, pose] : all) {
+    if (best.size() == kMostCandidates || (!best.empty() && promised < kWorthNaming)) break;
+    const Alike alike(model, pose);
+    if (std::none_of(best.begin(), best.end(),
+                     [&](const auto& other) { return alike.distance(other) <= apart; }))
+      best.push_back(pose);
   }
-  if (best) return best;
+  if (!best.empty()) return best;
   const std::vector<Hypothesis> modes = segment::modes_of(bench.objects[object]);
-  if (modes.empty()) return std::nullopt;
-  return T_scene_model_of(modes.front(), bench.taps.votes[object].model->center);
+  if (!modes.empty()) best.push_back(T_scene_model_of(modes.front(), model.center));
+  return best;
 }
 
 }  // namespace posevote::explain

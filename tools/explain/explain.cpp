@@ -64,12 +64,10 @@ class Explainer {
             found(i, one.candidate.T_scene_model, same == truth.end() ? nullptr : &*same));
       if (same != truth.end()) truth.erase(same);
     }
-    const bool is_unseen = all.empty() && !request_.is_of_misses;
-    if (!truth.empty() || is_unseen) {
-      const std::optional<Eigen::Isometry3d> best = best_candidate(bench_, i);
-      for (const Eigen::Isometry3d& pose : truth) all.push_back(missed(i, best, &pose));
-      if (truth.empty()) all.push_back(missed(i, best, nullptr));
-    }
+    // Where some were found, others are looked for if the object is asked for by name.
+    const bool may_be_more = request_.truth.empty() && !request_.object.empty();
+    if (!truth.empty() || (!request_.is_of_misses && (all.empty() || may_be_more)))
+      add_missed(i, truth, all);
     for (Explained& one : all) conclude(i, one);
     return all;
   }
@@ -97,6 +95,36 @@ class Explainer {
     one.best_is_true = truth != nullptr;
     if (truth) one.truth = bench_.stand(i, *truth);
     return one;
+  }
+
+  /// Those that the true poses tell, each with the candidate that is it, or else the likeliest that
+  /// is none of the others; and, where nothing tells how many there are, those that may be.
+  void add_missed(std::size_t i, const std::vector<Eigen::Isometry3d>& truth,
+                  std::vector<Explained>& all) const {
+    std::vector<Eigen::Isometry3d> candidates = best_candidates(bench_, i);
+    std::vector<std::optional<Eigen::Isometry3d>> best(truth.size());
+    for (std::size_t t = 0; t < truth.size(); ++t) {
+      const Alike alike(model(i), truth[t]);
+      const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                     [&](const auto& pose) { return alike.is_near(pose); });
+      if (same == candidates.end()) continue;
+      best[t] = *same;
+      candidates.erase(same);
+    }
+    for (std::size_t t = 0; t < truth.size(); ++t) {
+      if (!best[t] && !candidates.empty()) {
+        best[t] = candidates.front();
+        candidates.erase(candidates.begin());
+      }
+      all.push_back(missed(i, best[t], &truth[t]));
+    }
+    if (!truth.empty()) return;
+    if (candidates.empty() && all.empty()) all.push_back(missed(i, std::nullopt, nullptr));
+    for (const Eigen::Isometry3d& pose : candidates) {
+      const bool is_one_more = !all.empty();
+      all.push_back(missed(i, pose, nullptr));
+      all.back().is_one_more = is_one_more;
+    }
   }
 
   Explained missed(std::size_t i, const std::optional<Eigen::Isometry3d>& best,

@@ -28,6 +28,7 @@ struct Explained {
   std::string model;
   int obj_id = 0;
   bool is_found = false;
+  bool is_one_more = false;      ///< perhaps, beside those that are found or named before it
   std::optional<Standing> best;  ///< the found pose, or the best candidate
   std::optional<Standing> truth;
   bool best_is_true = false;  ///< whether the two are near each other

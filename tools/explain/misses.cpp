@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tools/evaluate/evaluate.hpp"
 #include "tools/explain/to_json.hpp"
 #include "tools/progress/progress.hpp"
 #include "tools/text.hpp"
@@ -10,16 +11,15 @@
 namespace posevote::explain {
 namespace {
 
-constexpr double kLeastVisible = 0.1;
-
 bool is_visible(const layouts::GroundTruth& truth, const layouts::ImageKey& image,
                 const Explained& one) {
-  return std::none_of(
-      truth.instances.begin(), truth.instances.end(), [&](const layouts::TrueInstance& true_one) {
-        return layouts::ImageKey(true_one.scene_id, true_one.im_id) == image &&
-               true_one.obj_id == one.obj_id && true_one.visible.value_or(1) < kLeastVisible &&
-               true_one.T_scene_model.isApprox(one.truth->T_scene_model);
-      });
+  return std::none_of(truth.instances.begin(), truth.instances.end(),
+                      [&](const layouts::TrueInstance& true_one) {
+                        return layouts::ImageKey(true_one.scene_id, true_one.im_id) == image &&
+                               true_one.obj_id == one.obj_id &&
+                               true_one.visible.value_or(1) < EvaluateOptions().least_visible &&
+                               true_one.T_scene_model.isApprox(one.truth->T_scene_model);
+                      });
 }
 
 std::string words(const Verdict& verdict) {

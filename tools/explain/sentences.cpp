@@ -224,7 +224,10 @@ std::vector<std::string> scan_sentences(const graph::Figures& figures,
 std::vector<std::string> sentences(const Explained& one, const Case& of) {
   std::vector<std::string> out{conclusion(one.verdict, of)};
   if (one.best) {
-    out.push_back((one.is_found ? "Found at " : "The best candidate is at ") + place_of(*one.best) +
+    out.push_back((one.is_found      ? "Found at "
+                   : one.is_one_more ? "A candidate is at "
+                                     : "The best candidate is at ") +
+                  place_of(*one.best) +
                   (!one.truth         ? "."
                    : one.best_is_true ? ", where the object is."
                                       : ", where the object is not."));
@@ -243,7 +246,10 @@ std::string to_text(const Explanation& explanation) {
   for (const std::string& sentence : explanation.sentences) text += "  " + sentence + "\n";
   for (const Explained& one : explanation.objects) {
     text += "\n" + one.model + format(" (obj_id %d): ", one.obj_id) +
-            (one.is_found ? "found" : "not found") + "\n";
+            (one.is_found      ? "found"
+             : one.is_one_more ? "perhaps one more"
+                               : "not found") +
+            "\n";
     for (const std::string& sentence : one.sentences) text += "  " + sentence + "\n";
   }
   return text;

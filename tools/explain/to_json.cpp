@@ -77,6 +77,7 @@ Json to_json(const Explained& one) {
   Json json{{"obj_id", one.obj_id},
             {"model", one.model},
             {"found", one.is_found},
+            {"one_more", one.is_one_more},
             {"verdict", to_json(one.verdict)}};
   json["without_truth"] = to_json(one.guess);
   json["sentences"] = one.sentences;

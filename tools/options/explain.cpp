@@ -16,7 +16,9 @@ void add_options(CLI::App& app, ExplainCommand& command) {
       "  posevote explain out/today --dataset lmo                 # all that was missed\n"
       "  posevote explain out/today --scene scan7 --object can --truth can.txt\n\n"
       "Runs that scan once more and says for each object what the best candidate is, what it has\n"
-      "in features, matches and votes, how it is judged, and which stage lost it. With the true\n"
+      "in features, matches and votes, how it is judged, and which stage lost it. Of an --object\n"
+      "that was found it says where others of its kind may be, and why they were not taken. With\n"
+      "the true\n"
       "pose it says where that one stands. Exit status: 0 explained, 2 no such run, scan or "
       "object.");
   app.add_option("out", command.out, "What `run` took as --out")->required()->type_name("DIR");

@@ -3,6 +3,7 @@
 #include "nodes/formats/paint_mesh.hpp"
 
 #include "nodes/color/texture_color.hpp"
+#include "nodes/formats/paint_files.hpp"
 #include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
@@ -171,4 +172,28 @@ TEST_CASE("PCD and OFF: colours", "[load][pcd][off][color]") {
         std::vector<Triple>{{1, 0, 0.2}});
   CHECK(read_raw(".off", "COFF\n2 0 0\n1 2 3 255 0 51 255\n1 2 4\n").color_doubt ==
         "1 of 2 points have a colour");
+}
+
+TEST_CASE("the files that a mesh's colours are in are found without its points", "[load][color]") {
+  const TempDir dir;
+  const auto names = [&](const std::string& mesh) {
+    std::vector<std::string> found;
+    for (const auto& file : paint_files(dir.path(mesh))) found.push_back(file.filename().string());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  dir.write("box.obj", "o box\n  mtllib of a box.mtl\n# mtllib of no box.mtl\n" + kVertices);
+  CHECK(names("box.obj").empty());
+  dir.write("of a box.mtl", kLibrary);
+  CHECK(names("box.obj") == Names{"of a box.mtl"});
+  dir.write("four colours.png", four_colours());
+  CHECK(names("box.obj") == Names{"of a box.mtl", "four colours.png"});
+  dir.write("of a box.mtl", "map_Kd nothing\n");  // no material: its reader will say so
+  CHECK(names("box.obj") == Names{"of a box.mtl"});
+  dir.write("box.ply", "ply\nformat ascii 1.0\ncomment TextureFile four colours.png\nend_header\n");
+  CHECK(names("box.ply") == Names{"four colours.png"});
+  dir.write("torn.ply", "ply\nformat");
+  CHECK(names("torn.ply").empty());
+  CHECK(names("none.ply").empty());
+  CHECK(names("box.stl").empty());
 }

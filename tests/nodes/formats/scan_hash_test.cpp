@@ -21,6 +21,15 @@ TEST_CASE("a scan is told by its bytes and by the pose beside it, not by its nam
   CHECK(posed != a);
   folder.write("a.pose", "0 0 2");
   CHECK(posed != hash(folder / "a.ply"));
+  const auto with_colors = [&] {
+    return formats::hash_scan({folder / "b.ply", 0, 0, {}, {}, {}, folder / "b.png"});
+  };
+  CHECK_THROWS_WITH(with_colors(), Catch::Contains("b.png: cannot be opened"));
+  folder.write("b.png", "red");
+  const std::string red = with_colors();
+  CHECK(red != a);
+  folder.write("b.png", "green");
+  CHECK(red != with_colors());
   SceneFile in_memory{folder / "nowhere.ply", 0, 0, {}};
   in_memory.depth = std::make_shared<const LoadedDepth>();
   CHECK(formats::hash_scan(in_memory).empty());
