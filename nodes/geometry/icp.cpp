@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "nodes/geometry/icp_pairs.hpp"
-
 namespace posevote::geometry {
 namespace {
 
@@ -33,6 +31,15 @@ Pivot find_pivot(const std::vector<IcpPair>& pairs) {
     squared += pair.weight * (pair.point - pivot.center).squaredNorm();
   pivot.lever = std::sqrt(squared / weight);
   return pivot;
+}
+
+double variance_of(const std::vector<IcpPair>& pairs) {
+  double squares = 0, weight = 0;
+  for (const IcpPair& pair : pairs) {
+    squares += pair.weight * pair.residual * pair.residual;
+    weight += pair.weight;
+  }
+  return squares / weight;
 }
 
 /// (lever x turn, shift) that brings the points closer to the planes.
@@ -76,15 +83,18 @@ void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& p
 
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
                       const IcpParams& params,
-                      const std::function<void(const Eigen::Isometry3d&)>& pass) {
+                      const std::function<void(const Eigen::Isometry3d&)>& pass,
+                      const MorePairs& more) {
   const IcpTerms& terms = params.terms;
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
-    const std::vector<IcpPair> pairs = find_icp_pairs(model, scan, T_scene_model.cast<float>(),
-                                                      static_cast<float>(distance), params.samples);
+    std::vector<IcpPair> pairs = find_icp_pairs(model, scan, T_scene_model.cast<float>(),
+                                                static_cast<float>(distance), params.samples);
     if (pairs.size() < static_cast<std::size_t>(terms.fewest_pairs)) break;
+    if (more)
+      for (const IcpPair& pair : more(T_scene_model, variance_of(pairs))) pairs.push_back(pair);
     const Pivot pivot = find_pivot(pairs);
     if (!(pivot.lever > 0)) break;
     const double damping = distance > end ? terms.damping : terms.final_damping;

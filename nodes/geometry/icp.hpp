@@ -10,8 +10,10 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <vector>
 
 #include "nodes/data/cloud.hpp"
+#include "nodes/geometry/icp_pairs.hpp"
 #include "nodes/geometry/scan_surface.hpp"
 
 namespace posevote::geometry {
@@ -35,10 +37,14 @@ struct IcpParams {
   IcpTerms terms{};
 };
 
+/// Pairs beside those of points and planes, whose residuals have a variance [m^2].
+using MorePairs = std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, double variance)>;
+
 /// The refined T_scene_model; the start where too few points find a partner. Never NaN. `pass`: is
-/// called with each pose on the way, but for the start.
+/// called with each pose on the way, but for the start. `more`: of a pose, or empty.
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
                       const IcpParams& params,
-                      const std::function<void(const Eigen::Isometry3d&)>& pass = {});
+                      const std::function<void(const Eigen::Isometry3d&)>& pass = {},
+                      const MorePairs& more = {});
 
 }  // namespace posevote::geometry

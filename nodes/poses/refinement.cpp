@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/color_turns.hpp"
 #include "nodes/poses/confidence.hpp"
 #include "nodes/poses/score.hpp"
@@ -13,7 +14,7 @@ namespace {
 enum Kind { kFirstSteps, kFull, kPolish };
 
 void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
-             const geometry::IcpParams& params) {
+             const geometry::IcpParams& params, const geometry::MorePairs& more = {}) {
   if (!sought.params.refine) return;
   const Eigen::Isometry3d start = candidate.T_scene_model;
   candidate.T_scene_model = sought.memory->refined.get(sought.scan, {start, kind}, [&] {
@@ -22,7 +23,7 @@ void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
       end.centers.extend(posed_center(T_scene_model, sought.model.center));
     };
     pass(start);
-    end.value = geometry::icp(sought.model.cloud, sought.scan.surface, start, params, pass);
+    end.value = geometry::icp(sought.model.cloud, sought.scan.surface, start, params, pass, more);
     end.radius = sought.reach +
                  1.001 * static_cast<double>(std::max(params.start_distance, params.end_distance));
     return end;
@@ -52,9 +53,12 @@ void refine(const Sought& sought, Candidate& candidate) {
 
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
+  const geometry::FaceEnds ends(sought.model.cloud, sought.model.outline, sought.scan.surface,
+                                sought.scan.view, sought.scan.resolution, sought.terms.edges);
   run_icp(sought, candidate, kPolish,
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
-           terms.polish_points, terms.polish_still, sought.terms.icp});
+           terms.polish_points, terms.polish_still, sought.terms.icp},
+          [&](const auto& pose, double variance) { return ends.pairs(pose, variance); });
   turn_by_color(sought, candidate);
   judge(sought, candidate, {});
   believe(sought, candidate);

@@ -214,6 +214,21 @@ void add_icp(Node& node) {
        "Once the search radius is the last.", at_least(0));
 }
 
+void add_edges(Node& node) {
+  using G = geometry::EdgeTerms;
+  const Register<G> term{node, &Terms::edges};
+  term("edge_ends", &G::ends, "ends",
+       "Of the model's faces that hold the last ICP where planes do not, at most. 0: none; a flat "
+       "face then stays where its votes saw it. Time grows with it.",
+       in_range(0, 100000));
+  term("edge_reach", &G::reach, "x resolution",
+       "How far from the model's end the scan's may be: what votes and ICP leave.",
+       in_range(0.5, 100));
+  term("edge_spread", &G::spread, "x resolution",
+       "By which an end is off, one deviation: the less, the more ends count against planes.",
+       greater_than(0));
+}
+
 void add_view(Node& node) {
   using G = geometry::ViewTerms;
   const Register<G> term{node, &Terms::view};
@@ -253,6 +268,7 @@ void add_terms(graph::Registration<SegmentParams>& node) {
   add_shift(node);
   add_surface(node);
   add_icp(node);
+  add_edges(node);
   add_view(node);
 }
 

@@ -7,6 +7,7 @@
 
 #include "nodes/data/clues.hpp"
 #include "nodes/density/refine_mode.hpp"
+#include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/range_view.hpp"
 #include "nodes/geometry/scan_surface.hpp"
@@ -67,8 +68,8 @@ struct ColorTerms {
   int glance_points = 300, look_points = 1000;
   double usual_likeness = 0.6, likeness_spread = 0.25, plain = 8;
   double tint = 9, any_tint = 25;
-  double offset = -0.7533;  ///< log odds
-  ColorClues weights{0.8704, 0.6781};
+  double offset = -2.354;  ///< log odds
+  ColorClues weights{0.8346, 1.348};
   double doubt = 0.1;
 };
 
@@ -105,6 +106,7 @@ struct Terms {
   TwinTerms twins;
   density::ShiftTerms shift;
   geometry::IcpTerms icp;
+  geometry::EdgeTerms edges;
   geometry::SurfaceTerms surface;
   geometry::ViewTerms view;
 };

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/edge_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "graph/parallel.hpp"
+#include "nodes/geometry/outline.hpp"
+
+namespace posevote::geometry {
+namespace {
+
+// x resolution.
+constexpr float kStep = 0.5F;        // along a face
+constexpr float kRim = 3;            // the end of a face is at most so far from a point at its rim
+constexpr float kLookBeyond = 2.5F;  // an end, for what is there
+constexpr float kLeastDrop = 2;      // behind an end
+constexpr float kLeastVariance = 0.05F;  // x resolution^2: no scan's planes hold better
+
+constexpr std::size_t kTried = 4;  // places, for each end that is wanted: few are at a rim
+
+/// Whether a surface is at a place, to somebody who comes along a face with that normal.
+bool goes_on(const ScanSurface& surface, const OrientedPoint& at, float near) {
+  return surface.nearest_compatible(at, near).has_value();
+}
+
+/// How far a surface goes on from `from`, in steps; nothing where it does up to `most`.
+std::optional<float> length_of(const ScanSurface& surface, const OrientedPoint& from,
+                               const Eigen::Vector3f& direction, float step, float most,
+                               float near) {
+  for (float s = step; s <= most; s += step)
+    if (!goes_on(surface, {from.point + s * direction, from.normal}, near)) return s - step;
+  return std::nullopt;
+}
+
+}  // namespace
+
+FaceEnds::FaceEnds(const Cloud& model, const Outline& outline, const ScanSurface& scan,
+                   const RangeView& view, float resolution, const EdgeTerms& terms)
+    : model_(model),
+      scan_(scan),
+      view_(view),
+      resolution_(resolution),
+      step_(kStep * resolution),
+      reach_(static_cast<float>(terms.reach) * resolution),
+      spread_(terms.spread * static_cast<double>(resolution)) {
+  if (terms.ends == 0 || outline.ends.empty()) return;
+  std::vector<End> ahead;  // the place is where the model is no more
+  for (Eigen::Index i = 0; i < model.points.rows(); ++i)
+    for_each_end(model, outline, i, [&](const Eigen::Vector3f& place) {
+      const Eigen::Vector3f from = model.points.row(i).transpose();
+      ahead.push_back({i, from, (place - from) / outline.reach});
+    });
+  const auto most = static_cast<std::size_t>(terms.ends);
+  const std::size_t stride = ahead.size() / (kTried * most) + 1;
+  const ScanSurface surface(model, false, resolution);
+  std::vector<End> all;
+  for (std::size_t k = 0; k < ahead.size(); k += stride) {
+    End end = ahead[k];
+    const OrientedPoint from{end.place, model.normals.row(end.row).transpose()};
+    const auto length =
+        length_of(surface, from, end.direction, step_, kRim * resolution, resolution);
+    if (!length) continue;
+    end.place += *length * end.direction;
+    all.push_back(end);
+  }
+  for (std::size_t k = 0; k < all.size(); k += all.size() / most + 1) ends_.push_back(all[k]);
+}
+
+bool FaceEnds::is_free(const Eigen::Vector3f& beyond) const {
+  if (view_.is_outside(beyond)) return false;
+  const float measured = view_.measured_range(beyond);
+  return measured == 0 || measured > (beyond - scan_.viewpoint()).norm() + kLeastDrop * resolution_;
+}
+
+IcpPair FaceEnds::pair_of(const End& end, const Eigen::Isometry3f& T_scene_model) const {
+  IcpPair pair;
+  const OrientedPoint at{
+      T_scene_model * end.place,
+      T_scene_model.linear() * Eigen::Vector3f(model_.normals.row(end.row).transpose())};
+  if (!scan_.faces_sensor(at)) return pair;
+  const Eigen::Vector3f direction = T_scene_model.linear() * end.direction;
+  float off = 0;  // of the scan's end from the model's
+  if (goes_on(scan_, at, resolution_)) {
+    const auto length = length_of(scan_, at, direction, step_, reach_, resolution_);
+    if (!length) return pair;
+    off = *length;
+  } else {
+    do off -= step_;
+    while (off > -reach_ && !goes_on(scan_, {at.point + off * direction, at.normal}, resolution_));
+  }
+  const float inside = 1 - off * off / (reach_ * reach_);
+  if (!(inside > 0) || !is_free(at.point + (off + kLookBeyond * resolution_) * direction))
+    return pair;
+  pair.row = end.row;
+  pair.point = at.point.cast<double>();
+  pair.normal = direction.cast<double>();
+  pair.residual = -static_cast<double>(off);
+  pair.weight = static_cast<double>(inside * inside);
+  return pair;
+}
+
+std::vector<IcpPair> FaceEnds::pairs(const Eigen::Isometry3d& T_scene_model,
+                                     double variance) const {
+  std::vector<IcpPair> pairs(ends_.size());
+  graph::parallel_for(ends_.size(), 32, [&](std::size_t k) {
+    pairs[k] = pair_of(ends_[k], T_scene_model.cast<float>());
+  });
+  std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
+  const double resolution = static_cast<double>(resolution_);
+  const double share =
+      std::max(variance, kLeastVariance * resolution * resolution) / (spread_ * spread_);
+  for (IcpPair& pair : pairs) pair.weight *= std::min(1.0, share);
+  return pairs;
+}
+
+}  // namespace posevote::geometry

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/edge_pairs.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "nodes/geometry/icp.hpp"
+#include "nodes/geometry/outline.hpp"
+
+using namespace posevote;
+
+namespace {
+
+constexpr float kStep = 0.002F;
+constexpr float kFar = 0.3F;  // behind the face
+
+/// Points of a plane at depth z that look at the sensor in the origin.
+void add_plane(Cloud& cloud, const Eigen::Vector2f& low, const Eigen::Vector2f& high, float z) {
+  const Eigen::Index columns = std::lround((high.x() - low.x()) / kStep);
+  const Eigen::Index rows = std::lround((high.y() - low.y()) / kStep);
+  const Eigen::Index before = cloud.points.rows(), added = columns * rows;
+  cloud.points.conservativeResize(before + added, 3);
+  cloud.normals.conservativeResize(before + added, 3);
+  for (Eigen::Index i = 0; i < added; ++i) {
+    cloud.points.row(before + i) << low.x() + kStep * static_cast<float>(i % columns),
+        low.y() + kStep * static_cast<float>(i / columns), z;
+    cloud.normals.row(before + i) << 0, 0, -1;
+  }
+}
+
+/// The front of a carton, before a wall.
+struct Carton {
+  Cloud model, scan;
+  Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
+
+  Carton() {
+    add_plane(model, {-0.06F, -0.04F}, {0.06F, 0.04F}, 0);
+    truth.translation() << 0.011, -0.007, 0.8;
+    add_plane(scan, {-0.049F, -0.047F}, {0.071F, 0.033F}, 0.8F);
+    add_plane(scan, {-0.2F, -0.2F}, {0.2F, 0.2F}, 0.8F + kFar);
+  }
+
+  Eigen::Isometry3d refined(const Eigen::Isometry3d& start, int ends) const {
+    const geometry::RangeView view(scan, kStep);
+    const geometry::ScanSurface surface(scan, view.usable(), 4 * kStep);
+    const Outline outline = geometry::outline_of(model, 9 * kStep);
+    const geometry::FaceEnds faces(model, outline, surface, view, kStep, {.ends = ends});
+    return geometry::icp(
+        model, surface, start, {40, 2 * kStep, 2 * kStep, 10000}, {},
+        [&](const auto& pose, double variance) { return faces.pairs(pose, variance); });
+  }
+};
+
+double off(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& truth) {
+  return (pose.translation() - truth.translation()).norm();
+}
+
+}  // namespace
+
+TEST_CASE("a flat face slides under ICP, and its ends hold it", "[segment]") {
+  const Carton carton;
+  Eigen::Isometry3d start = carton.truth;
+  start.translation() += Eigen::Vector3d(0.003, -0.002, 0.001);
+  start.rotate(Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitZ()));
+  CHECK(off(carton.refined(start, 0), carton.truth) > 0.003);
+  const Eigen::Isometry3d held = carton.refined(start, 300);
+  CHECK(off(held, carton.truth) < 0.0005);
+  CHECK(Eigen::AngleAxisd(held.linear()).angle() < 0.01);
+}
+
+TEST_CASE("what ends behind something nearer does not hold a face", "[segment]") {
+  Carton carton;
+  // A board covers the right half: the face seems to end in its middle.
+  Cloud half;
+  add_plane(half, {-0.049F, -0.047F}, {0.011F, 0.033F}, 0.8F);
+  add_plane(half, {0.006F, -0.1F}, {0.1F, 0.1F}, 0.6F);
+  add_plane(half, {-0.2F, -0.2F}, {0.2F, 0.2F}, 0.8F + kFar);
+  carton.scan = half;
+  Eigen::Isometry3d start = carton.truth;
+  start.translation().x() += 0.003;
+  CHECK(off(carton.refined(start, 300), carton.truth) < 0.0006);
+}
