@@ -49,10 +49,13 @@ CountsByConditions split_by_conditions(const layouts::GroundTruth& truth,
                                        std::size_t step) {
   CountsByConditions counts;
   for (const auto& [conditions, images] : images_by_conditions(read_spec(spec), step)) {
+    const auto is_of_others = [&kept = images](const auto& one) {
+      return !kept.contains(one.im_id);
+    };
     layouts::GroundTruth part = truth;
-    std::erase_if(part.instances, [&](const auto& one) { return !images.contains(one.im_id); });
+    std::erase_if(part.instances, is_of_others);
     std::vector<FoundInstance> rows = found;
-    std::erase_if(rows, [&](const FoundInstance& row) { return !images.contains(row.im_id); });
+    std::erase_if(rows, is_of_others);
     if (part.instances.empty()) continue;
     counts[conditions] = evaluate(part, rows, options).all[0].counts;
   }
