@@ -131,6 +131,39 @@ TEST_CASE("all that a run missed is explained, and whether it can be told withou
   CHECK(all["misses"][0]["scene"] == "000001_000000");
 }
 
+TEST_CASE("of an object that was found it is told where another may be", "[explain]") {
+  const World& w = world();
+  const std::string spec = w.folder.write("two.yaml",
+                                          "seed: 6\n"
+                                          "models:\n"
+                                          "  - {shape: figure, seed: 3, size: 0.2}\n"
+                                          "scenes:\n"
+                                          "  - {sensor: rgbd, objects: [1, 1], clutter: 0}\n");
+  const std::string set = (w.folder / "two").string(), out = (w.folder / "one-of-two").string();
+  REQUIRE(run_posevote(w.folder, "simulate " + spec + " --out " + set).status == 0);
+  const CommandResult run = run_posevote(w.folder, "run demo --dataset " + set + " --out " + out +
+                                                       " --set segment_objects.max_instances=1");
+  INFO(run.output);
+  REQUIRE(run.status == 0);
+  const auto objects = [&](const std::string& more) {
+    const CommandResult told = explain(out + " --object 1 --scene 000001_000000 --json" + more);
+    INFO(told.output);
+    REQUIRE(told.status == 0);
+    return nlohmann::json::parse(told.output.substr(told.output.find('{'))).at("objects");
+  };
+  const nlohmann::json told = objects("");
+  INFO(told.dump(1));
+  REQUIRE(told.size() >= 2);
+  CHECK(told[0]["found"] == true);
+  CHECK(told[0]["one_more"] == false);
+  CHECK(told[1]["found"] == false);
+  CHECK(told[1]["one_more"] == true);
+  const nlohmann::json with_truth = objects(" --dataset " + set);
+  REQUIRE(with_truth.size() == 2);
+  CHECK(with_truth[1]["best_is_true"] == true);  // it is the candidate that was told
+  CHECK(with_truth[1]["best"]["T_scene_model"] == told[1]["best"]["T_scene_model"]);
+}
+
 TEST_CASE("a model in another unit is named", "[explain]") {
   const World& w = world();
   fs::create_directories(w.folder / "units");

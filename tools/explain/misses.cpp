@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/pose_error.hpp"
 #include "tools/explain/to_json.hpp"
 #include "tools/progress/progress.hpp"
 #include "tools/text.hpp"
@@ -11,16 +12,38 @@
 namespace posevote::explain {
 namespace {
 
-bool is_visible(const layouts::GroundTruth& truth, const layouts::ImageKey& image,
-                const Explained& one) {
-  return std::none_of(truth.instances.begin(), truth.instances.end(),
-                      [&](const layouts::TrueInstance& true_one) {
-                        return layouts::ImageKey(true_one.scene_id, true_one.im_id) == image &&
-                               true_one.obj_id == one.obj_id &&
-                               true_one.visible.value_or(1) < EvaluateOptions().least_visible &&
-                               true_one.T_scene_model.isApprox(one.truth->T_scene_model);
-                      });
-}
+/// What counts as missed: what is seen enough of, and in whose place none of its kind was found. One
+/// that was found there, but turned otherwise, is a wrong detection, of which explain tells nothing.
+class Counted {
+ public:
+  explicit Counted(const layouts::GroundTruth& truth) : truth_(truth) {}
+
+  bool is_missed(const layouts::ImageKey& image, const Explained& one) {
+    return is_visible(image, one) && !is_found(one);
+  }
+
+ private:
+  bool is_visible(const layouts::ImageKey& image, const Explained& one) const {
+    return std::none_of(truth_.instances.begin(), truth_.instances.end(),
+                        [&](const layouts::TrueInstance& true_one) {
+                          return layouts::ImageKey(true_one.scene_id, true_one.im_id) == image &&
+                                 true_one.obj_id == one.obj_id &&
+                                 true_one.visible.value_or(1) < EvaluateOptions().least_visible &&
+                                 true_one.T_scene_model.isApprox(one.truth->T_scene_model);
+                        });
+  }
+
+  bool is_found(const Explained& one) {
+    constexpr double kNear = 0.1;  // x diameter: ADD-S
+    if (!one.truth->near_same) return false;
+    const layouts::TrueObject& object = truth_.objects.at(one.obj_id);
+    const PoseMeter& meter = meters_.try_emplace(one.obj_id, object).first->second;
+    return meter.adds(one.truth->T_scene_model, one.truth->T_near_same) <= kNear * object.diameter;
+  }
+
+  const layouts::GroundTruth& truth_;
+  std::map<int, PoseMeter> meters_;
+};
 
 std::string words(const Verdict& verdict) {
   std::string text = name_of(verdict.cause);
@@ -67,6 +90,7 @@ std::map<int, std::vector<Eigen::Isometry3d>> poses_of(const layouts::GroundTrut
 std::vector<Miss> misses_of(const Run& run, const layouts::GroundTruth& truth,
                             const Request& request, std::size_t most) {
   std::vector<Miss> misses;
+  Counted counted(truth);
   Progress progress({"scans", run.frames.size()});
   for (const FrameOfRun& frame : run.frames) {
     if (misses.size() >= most) break;
@@ -76,7 +100,7 @@ std::vector<Miss> misses_of(const Run& run, const layouts::GroundTruth& truth,
     of.is_of_misses = true;
     of.truth = poses_of(truth, image);
     for (const Explained& one : explain(run, frame.name, of).objects)
-      if (one.truth && is_visible(truth, image, one))
+      if (one.truth && counted.is_missed(image, one))
         misses.push_back(
             {frame.name, one.model, one.obj_id, one.guess, one.verdict, is_confirmed(one)});
     progress.advance();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -224,7 +225,10 @@ void Bench::compare_found(std::size_t object, const Alike& alike, Standing& stan
     const poses::Instance& one = search.instances().found[k];
     if (one.object == object) {
       const double off = alike.distance(one.candidate.T_scene_model);
-      standing.near_same = std::min(standing.near_same.value_or(off), off);
+      if (off < standing.near_same.value_or(std::numeric_limits<double>::infinity())) {
+        standing.near_same = off;
+        standing.T_near_same = one.candidate.T_scene_model;
+      }
       if (alike.is_near(one.candidate.T_scene_model)) continue;
     }
     std::size_t took = 0;

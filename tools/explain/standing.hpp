@@ -59,6 +59,7 @@ struct Standing {
   std::string taker;                ///< the instance that took most of its points
   double taken = 0;                 ///< share of the supported points that others took
   std::optional<double> near_same;  ///< distance of the next found one of its kind [m]
+  Eigen::Isometry3d T_near_same = Eigen::Isometry3d::Identity();  ///< that one, if there is any
 };
 
 /// Judges poses of a scan as it was at the beginning, and as the found instances left it.
