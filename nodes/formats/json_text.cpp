@@ -6,6 +6,24 @@
 #include "nodes/formats/file_bytes.hpp"
 
 namespace posevote::formats {
+namespace {
+
+/// The first character of UTF-8 at `at` or behind.
+std::size_t character_at(const std::string& text, std::size_t at) {
+  while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) ++at;
+  return at;
+}
+
+/// The library repeats what it read last, blanks included, which may be most of a file; what it
+/// expected stands behind.
+std::string without_middle(const std::string& text) {
+  constexpr std::size_t kMost = 400, kBegin = 200, kEnd = 150;
+  if (text.size() <= kMost) return text;
+  return text.substr(0, character_at(text, kBegin)) + " ... " +
+         text.substr(character_at(text, text.size() - kEnd));
+}
+
+}  // namespace
 
 template <class Json>
 Json parse_json(std::string_view text) {
@@ -38,7 +56,7 @@ template nlohmann::ordered_json read_json(const std::filesystem::path& file);
 std::string reason_of(const nlohmann::json::exception& error) {
   const std::string text = error.what();  // "[json.exception.type_error.302] type must be ..."
   const std::size_t end = text.starts_with("[json.") ? text.find("] ") : std::string::npos;
-  return end == std::string::npos ? text : text.substr(end + 2);
+  return without_middle(end == std::string::npos ? text : text.substr(end + 2));
 }
 
 }  // namespace posevote::formats

@@ -32,6 +32,22 @@ TEST_CASE("JSON of any depth is read or refused, and does not overflow the stack
                     Contains("is no JSON: parse error at line 2, column 7"));
 }
 
+TEST_CASE("what is wrong is said in a line of bounded length, whatever was read last", "[json]") {
+  std::string accents = "{\"";
+  for (int i = 0; i < 1000; ++i) accents += "\u00e9";
+  for (const std::string& text : {std::string(100000, '\n') + "~", accents, "x" + accents}) {
+    std::string said;
+    try {
+      (void)formats::parse_json<json>(text);
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+    CHECK_THAT(said, Contains("is no JSON: parse error at line "));
+    CHECK(said.size() < 500);
+    CHECK_NOTHROW(json(said).dump());  // no character is cut
+  }
+}
+
 TEST_CASE("files that are nested too deep are named, and results that are count as torn",
           "[json]") {
   const test::TemporaryFolder folder;
