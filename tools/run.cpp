@@ -35,13 +35,6 @@ std::vector<SceneEntry> find_scenes(const RunCommand& command, const StreamOptio
                                  : list_dataset_scenes(command.dataset, command.split);
 }
 
-/// One that cannot be read fails as a frame.
-std::string hash_or_unknown(const SceneFile& file) try {
-  return formats::hash_scan(file);
-} catch (const std::runtime_error&) {
-  return "";
-}
-
 graph::RunSummary run_scenes(const RunCommand& command, const StreamOptions& options,
                              const Configuration& configuration, const graph::Constants& constants,
                              stream::Scans& scans, const std::atomic<bool>& interrupted,
@@ -53,7 +46,7 @@ graph::RunSummary run_scenes(const RunCommand& command, const StreamOptions& opt
     std::optional<stream::TakenScan> taken = scans.next();
     if (!taken) return std::nullopt;
     auto& [number, name, file] = taken->entry;
-    file.hash = hash_or_unknown(file);
+    file.hash = formats::hash_or_unknown(file);  // one that cannot be read fails as a frame
     return graph::Frame<SceneFile>{{number, name, command.out, command.seed, file.path},
                                    {file},
                                    sizes.expected(file),

@@ -54,10 +54,7 @@ std::vector<std::string> hash_scans(const std::vector<ordered_json>& frames,
                                     const std::map<std::size_t, SceneFile>& scans) {
   std::vector<std::string> hashes(frames.size());
   graph::parallel_for(frames.size(), 1, [&](std::size_t i) {
-    try {
-      hashes[i] = hash_scan(scans.at(number_of(frames[i])));
-    } catch (const std::runtime_error&) {
-    }
+    hashes[i] = hash_or_unknown(scans.at(number_of(frames[i])));
   });
   return hashes;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/formats/scan_hash.hpp"
 
+#include <stdexcept>
 #include <vector>
 
 #include "nodes/formats/format.hpp"
@@ -23,6 +24,12 @@ std::string hash_scan(const SceneFile& scan) {
   if (!scan.color.empty()) files.push_back(scan.color);
   for (fs::path& paint : paint_files(scan.path)) files.push_back(std::move(paint));
   return library::hash_files(files, "");
+}
+
+std::string hash_or_unknown(const SceneFile& scan) try {
+  return hash_scan(scan);
+} catch (const std::runtime_error&) {
+  return "";
 }
 
 }  // namespace posevote::formats

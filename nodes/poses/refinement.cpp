@@ -2,6 +2,7 @@
 #include "nodes/poses/refinement.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/color_turns.hpp"
@@ -53,12 +54,16 @@ void refine(const Sought& sought, Candidate& candidate) {
 
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  const geometry::FaceEnds ends(sought.model.cloud, sought.model.outline, sought.scan.surface,
-                                sought.scan.view, sought.scan.resolution, sought.terms.edges);
+  std::optional<geometry::FaceEnds> ends;  // only where ICP has to run
   run_icp(sought, candidate, kPolish,
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
            terms.polish_points, terms.polish_still, sought.terms.icp},
-          [&](const auto& pose, double variance) { return ends.pairs(pose, variance); });
+          [&](const auto& pose, double variance) {
+            if (!ends)
+              ends.emplace(sought.model.cloud, sought.model.outline, sought.scan.surface,
+                           sought.scan.view, sought.scan.resolution, sought.terms.edges);
+            return ends->pairs(pose, variance);
+          });
   turn_by_color(sought, candidate);
   judge(sought, candidate, {});
   believe(sought, candidate);

@@ -18,9 +18,8 @@ void add_options(CLI::App& app, ExplainCommand& command) {
       "Runs that scan once more and says for each object what the best candidate is, what it has\n"
       "in features, matches and votes, how it is judged, and which stage lost it. Of an --object\n"
       "that was found it says where others of its kind may be, and why they were not taken. With\n"
-      "the true\n"
-      "pose it says where that one stands. Exit status: 0 explained, 2 no such run, scan or "
-      "object.");
+      "the true pose it says where that one stands. Exit status: 0 explained, 2 no such run, scan\n"
+      "or object.");
   app.add_option("out", command.out, "What `run` took as --out")->required()->type_name("DIR");
   app.add_option(
          "--scene", command.scene,

@@ -59,13 +59,9 @@ Json to_json(const SceneEntry& scan, const ScanAnswers& answers) {
             {"scene_id", scan.file.scene_id},
             {"im_id", scan.file.im_id},
             {"camera", formats::camera_json(scan.file.camera)},
-            {"scan_hash", ""},
+            {"scan_hash", formats::hash_or_unknown(scan.file)},  // unknown: it is searched again
             {"settings", Json::array()},
             {"calls", Json::object()}};
-  try {
-    json["scan_hash"] = formats::hash_scan(scan.file);
-  } catch (const std::runtime_error&) {  // nobody can say what it held: it is searched again
-  }
   for (const Answer& answer : answers.settings) json["settings"].push_back(to_json(answer));
   for (const auto& [node, calls] : answers.calls) json["calls"][node] = {calls.asked, calls.made};
   return json;
