@@ -14,8 +14,8 @@ std::size_t character_at(const std::string& text, std::size_t at) {
   return at;
 }
 
-/// The library repeats what it read last, blanks included, which may be most of a file; what it
-/// expected stands behind.
+/// What a message repeats may be most of a file: what the library read last, blanks included, behind
+/// which stands what it expected, or a value.
 std::string without_middle(const std::string& text) {
   constexpr std::size_t kMost = 400, kBegin = 200, kEnd = 150;
   if (text.size() <= kMost) return text;
@@ -46,6 +46,10 @@ Json read_json(const std::filesystem::path& file) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
+}
+
+std::string shown(const nlohmann::json& value) {
+  return without_middle(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 template nlohmann::json parse_json(std::string_view text);

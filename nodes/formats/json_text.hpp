@@ -22,6 +22,9 @@ Json parse_json(std::string_view text);
 template <class Json>
 Json read_json(const std::filesystem::path& file);
 
+/// A value as messages show it: as JSON, without the middle of a long one.
+std::string shown(const nlohmann::json& value);
+
 /// What an exception of the library says, without its number.
 std::string reason_of(const nlohmann::json::exception& error);
 

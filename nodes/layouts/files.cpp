@@ -90,8 +90,8 @@ int whole(const nlohmann::json& entry, const std::string& name, int least) {
   const nlohmann::json& value = entry.at(name);
   if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
       value.get<std::int64_t>() > std::numeric_limits<int>::max())
-    throw std::invalid_argument(name + " is " + value.dump() + ", expected a whole number from " +
-                                std::to_string(least) + " up");
+    throw std::invalid_argument(name + " is " + formats::shown(value) +
+                                ", expected a whole number from " + std::to_string(least) + " up");
   return value.get<int>();
 }
 

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "nodes/formats/json_text.hpp"
 #include "nodes/geometry/rotation.hpp"
 #include "nodes/layouts/color_beside.hpp"
 #include "nodes/layouts/models_info.hpp"
@@ -51,7 +52,7 @@ std::map<int, json> by_image(const ImageFolders& names, const fs::path& file) {
   const json root = names.read(file);
   for (const auto& item : root.items()) {
     const int im_id = number_of(item.key());
-    if (im_id < 0) fail(file, "'" + item.key() + "' is no image number");
+    if (im_id < 0) fail(file, formats::shown(item.key()) + " is no image number");
     if (!images.emplace(im_id, item.value()).second)
       fail(file, "image " + std::to_string(im_id) + " is given twice");
   }
@@ -153,7 +154,7 @@ void read_objects(const ImageFolders& names, const fs::path& folder, GroundTruth
   const json infos = names.read(file);
   for (const auto& item : infos.items()) {
     const int obj_id = number_of(item.key());
-    if (obj_id < 0) fail(file, "'" + item.key() + "' is no obj_id");
+    if (obj_id < 0) fail(file, formats::shown(item.key()) + " is no obj_id");
     truth.objects[obj_id] =
         located(file, "object " + item.key(), [&] { return read_object(item.value()); });
   }

@@ -63,10 +63,12 @@ std::map<int, Symmetries> known_symmetries(const std::filesystem::path& models_i
   const json root = read_json(models_info);
   for (const auto& item : root.items()) {
     const json& info = item.value();
+    const int obj_id = number_of(item.key());
+    if (obj_id < 0) fail(models_info, formats::shown(item.key()) + " is no obj_id");
     located(models_info, "object " + item.key(), [&] {
       if (!info.is_object()) throw std::invalid_argument("is no JSON object");
       if (info.contains("symmetries_discrete") || info.contains("symmetries_continuous"))
-        known[number_of(item.key())] = symmetries_of(read_symmetries(info), read_axes(info));
+        known[obj_id] = symmetries_of(read_symmetries(info), read_axes(info));
     });
   }
   return known;

@@ -48,6 +48,15 @@ TEST_CASE("what is wrong is said in a line of bounded length, whatever was read 
   }
 }
 
+TEST_CASE("a value in a message is of bounded length, whatever bytes it holds", "[json]") {
+  CHECK(formats::shown(7) == "7");
+  CHECK(formats::shown("seven") == "\"seven\"");
+  CHECK(formats::shown("\xff").size() == 5);  // what is no UTF-8 is replaced
+  const std::string said = formats::shown(std::string(100000, '\x16'));
+  CHECK(said.size() < 500);
+  CHECK_NOTHROW(json(said).dump());
+}
+
 TEST_CASE("files that are nested too deep are named, and results that are count as torn",
           "[json]") {
   const test::TemporaryFolder folder;

@@ -53,4 +53,5 @@ TEST_CASE("what is wrong with listed symmetries is told with file and object", "
                     Contains("object 12") && Contains("axis"));
   CHECK_THROWS_WITH(read("[1]"), Contains("is no JSON object"));
   CHECK_THROWS_WITH(read(R"({"12": 5})"), Contains("object 12"));
+  CHECK_THROWS_WITH(read(R"({"can": {}})"), Contains("models_info.json: \"can\" is no obj_id"));
 }
