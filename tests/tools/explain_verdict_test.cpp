@@ -84,6 +84,16 @@ TEST_CASE("what is not seen is not seen, and why", "[explain]") {
   CHECK(judge_case(missed(at)).detail == "unmeasured");
 }
 
+TEST_CASE("what is seen of a pose may be little, and yet do: then the search lost it", "[explain]") {
+  Standing at = lost_at("glance");
+  at.seen = {};
+  at.seen.supported = 0.12;
+  at.seen.hidden = 0.85;
+  CHECK(cause_of(at) == Cause::kOutranked);
+  at.left.confidence = 0.2;
+  CHECK(cause_of(at) == Cause::kNotSeen);
+}
+
 TEST_CASE("each stage before the search is named by its figures", "[explain]") {
   Standing at = never_proposed();
   at.agreeing = at.pairs = 0;
@@ -175,6 +185,8 @@ TEST_CASE("without the true pose a doubtful candidate is refused, a hopeless one
   CHECK(cause_of(at, false) == Cause::kMoved);
   at.way = lost_at("glance").way;  // a deeper search found it
   CHECK(cause_of(at, false) == Cause::kOutranked);
+  at.rank = at.agreeing = at.pairs = 0;  // and nothing speaks for it but that it fits
+  CHECK(cause_of(at, false) == Cause::kNoTrace);
 }
 
 TEST_CASE("what would be sure but for one clue is refused for it, where votes say it is there",
@@ -188,6 +200,10 @@ TEST_CASE("what would be sure but for one clue is refused for it, where votes sa
   CHECK(judge_case(missed(at, false)).stage == "overhang");
   at.judged.colors_against = 8;
   CHECK(judge_case(missed(at, false)).stage == "colors");
+  Standing disproved = at;
+  disproved.judged.confidence = 1e-5;
+  disproved.judged.against[kOverhang] = 14;
+  CHECK(cause_of(disproved, false) == Cause::kNoTrace);
   at.agreeing = at.pairs = 4;
   CHECK(cause_of(at, false) == Cause::kNoTrace);
   at = good();

@@ -95,7 +95,9 @@ std::vector<std::pair<std::string, double>> Judged::reasons() const {
 
 double Judged::forgiven() const {
   if (confidence <= 0 || confidence >= 1) return confidence;
-  const double worst = std::max(0.0, reasons().front().second);
+  // What takes more than this all but proves that the pose is wrong.
+  constexpr double kMostForgiven = 8;
+  const double worst = std::clamp(reasons().front().second, 0.0, kMostForgiven);
   return poses::probability_of(std::log(confidence / (1 - confidence)) + worst);
 }
 

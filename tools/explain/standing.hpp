@@ -29,7 +29,8 @@ struct Judged {
 
   /// What takes how much from the log odds, the most first.
   std::vector<std::pair<std::string, double>> reasons() const;
-  /// The confidence that it would have, were the first of these as of right detections.
+  /// The confidence that it would have, were the first of these as of right detections; of what is
+  /// all but disproved by it, it forgives a part.
   double forgiven() const;
 };
 

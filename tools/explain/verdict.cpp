@@ -59,8 +59,8 @@ Verdict judge_refused(const Case& of, const Standing& at) {
   return {Cause::kRefused, worst_clue(deciding(at, of)), ""};
 }
 
-/// What was refined near it was refused, though it would do itself.
-bool was_missed_narrowly(const Case& of, const Standing& at) {
+/// Whether it is sure, in the whole scan and in what others left of it.
+bool would_do(const Case& of, const Standing& at) {
   return std::min(at.judged.confidence, at.left.confidence) >= of.min_confidence;
 }
 
@@ -75,13 +75,14 @@ std::optional<Verdict> judge_proposal(const Standing& at) {
 }
 
 Verdict judge_true(const Case& of, const Standing& at) {
-  if (is_unseen(at.seen) && !was_judged(at)) return {Cause::kNotSeen, "", why_unseen(at.seen)};
-  if (was_judged(at) && was_missed_narrowly(of, at)) return {Cause::kMoved, "", ""};
+  if (was_judged(at) && would_do(of, at)) return {Cause::kMoved, "", ""};
   if (was_judged(at)) return judge_refused(of, at);
+  // Little is seen of it, and what is seen would not do.
+  if (is_unseen(at.seen) && !(at.rank > 0 && would_do(of, at)))
+    return {Cause::kNotSeen, "", why_unseen(at.seen)};
   if (const auto early = judge_proposal(at)) return *early;
   if (!at.stayed) return {Cause::kMoved, "", ""};
-  if (at.judged.confidence >= of.min_confidence && at.taken <= kMuchTaken)
-    return {Cause::kOutranked, step_that_lost(at), ""};
+  if (would_do(of, at)) return {Cause::kOutranked, step_that_lost(at), ""};
   return judge_refused(of, at);
 }
 
@@ -91,7 +92,9 @@ bool is_voted_for(const Standing& at) {
 }
 
 Verdict judge_candidate(const Case& of, const Standing& at) {
-  if (at.left.confidence >= of.min_confidence) {
+  const bool has_votes = at.rank > 0 || at.agreeing + at.pairs >= kFewAgreeing;
+  if (has_votes && at.left.confidence >= of.min_confidence) {
+    // What was refined near it was refused.
     if (was_judged(at)) return {Cause::kMoved, "", ""};
     return {Cause::kOutranked, step_that_lost(at), ""};
   }
@@ -99,7 +102,6 @@ Verdict judge_candidate(const Case& of, const Standing& at) {
   if (refused.cause != Cause::kRefused) return refused;
   // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
   const Judged& judged = at.taken > kMuchTaken ? at.left : at.judged;
-  const bool has_votes = at.rank > 0 || at.agreeing + at.pairs >= kFewAgreeing;
   const bool is_likely = (has_votes && judged.confidence >= kLikely) ||
                          (is_voted_for(at) && judged.forgiven() >= kForgiven);
   if (is_likely && !is_unseen(at.seen)) return refused;
