@@ -84,7 +84,8 @@ TEST_CASE("what is not seen is not seen, and why", "[explain]") {
   CHECK(judge_case(missed(at)).detail == "unmeasured");
 }
 
-TEST_CASE("what is seen of a pose may be little, and yet do: then the search lost it", "[explain]") {
+TEST_CASE("what is seen of a pose may be little, and yet do: then the search lost it",
+          "[explain]") {
   Standing at = lost_at("glance");
   at.seen = {};
   at.seen.supported = 0.12;
@@ -181,6 +182,8 @@ TEST_CASE("without the true pose a doubtful candidate is refused, a hopeless one
   at.taken = 0;
   at.judged.confidence = at.left.confidence = 0.01;
   CHECK(cause_of(at, false) == Cause::kNoTrace);
+  at.left.confidence = 0.3;  // what spoke against it was another instance
+  CHECK(cause_of(at, false) == Cause::kRefused);
   at.judged.confidence = at.left.confidence = 0.9;  // what was refined near it was not
   CHECK(cause_of(at, false) == Cause::kMoved);
   at.way = lost_at("glance").way;  // a deeper search found it

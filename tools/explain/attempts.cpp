@@ -64,7 +64,7 @@ std::vector<std::string> settings_for(const Explained& one, const poses::Segment
       return wider_search(one.verdict.stage, params);
     case Cause::kRefused: {
       std::vector<std::string> settings;
-      const double confidence = at ? std::min(at->judged.confidence, at->left.confidence) : 0;
+      const double confidence = at ? at->sureness() : 0;
       if (one.verdict.stage == kClueNames[kExactness])
         settings.push_back(format("segment_objects.max_residual=%.3g", 2 * params.max_residual));
       if (confidence >= kLeastWorth) settings.push_back(confidence_below(confidence));

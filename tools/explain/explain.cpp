@@ -162,7 +162,8 @@ class Explainer {
     of.pose = one.best;
     one.guess = judge_case(of);
     if (one.truth) {
-      of.pose = one.truth;
+      // Of two starts for ICP at the true place, the one that ends better.
+      if (!one.best_is_true || one.truth->sureness() > one.best->sureness()) of.pose = one.truth;
       of.is_true = true;
     }
     of.is_absent = !one.is_found && !one.truth && !request_.truth.empty();

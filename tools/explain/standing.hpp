@@ -3,6 +3,7 @@
 // votes, its place in the search, and how it is judged.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -61,6 +62,9 @@ struct Standing {
   double taken = 0;                 ///< share of the supported points that others took
   std::optional<double> near_same;  ///< distance of the next found one of its kind [m]
   Eigen::Isometry3d T_near_same = Eigen::Isometry3d::Identity();  ///< that one, if there is any
+
+  /// In the whole scan and in what other instances left.
+  double sureness() const { return std::min(judged.confidence, left.confidence); }
 };
 
 /// Judges poses of a scan as it was at the beginning, and as the found instances left it.

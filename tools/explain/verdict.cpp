@@ -59,10 +59,7 @@ Verdict judge_refused(const Case& of, const Standing& at) {
   return {Cause::kRefused, worst_clue(deciding(at, of)), ""};
 }
 
-/// Whether it is sure, in the whole scan and in what others left of it.
-bool would_do(const Case& of, const Standing& at) {
-  return std::min(at.judged.confidence, at.left.confidence) >= of.min_confidence;
-}
+bool would_do(const Case& of, const Standing& at) { return at.sureness() >= of.min_confidence; }
 
 /// Before anybody looked at the pose: which stage gave too little. What was proposed had enough.
 std::optional<Verdict> judge_proposal(const Standing& at) {
@@ -101,7 +98,9 @@ Verdict judge_candidate(const Case& of, const Standing& at) {
   const Verdict refused = judge_refused(of, at);
   if (refused.cause != Cause::kRefused) return refused;
   // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
-  const Judged& judged = at.taken > kMuchTaken ? at.left : at.judged;
+  // Others that are found explain what speaks against a pose beside them.
+  const bool is_by_rest = at.taken > kMuchTaken || at.left.confidence > at.judged.confidence;
+  const Judged& judged = is_by_rest ? at.left : at.judged;
   const bool is_likely = (has_votes && judged.confidence >= kLikely) ||
                          (is_voted_for(at) && judged.forgiven() >= kForgiven);
   if (is_likely && !is_unseen(at.seen)) return refused;
