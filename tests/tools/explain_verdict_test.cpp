@@ -176,10 +176,6 @@ TEST_CASE("without the true pose a doubtful candidate is refused, a hopeless one
   Standing at = good();
   at.judged.confidence = at.left.confidence = 0.3;
   CHECK(cause_of(at, false) == Cause::kRefused);
-  at.taken = 0.8;  // it lies on another instance
-  at.left.confidence = 0;
-  CHECK(cause_of(at, false) == Cause::kNoTrace);
-  at.taken = 0;
   at.judged.confidence = at.left.confidence = 0.01;
   CHECK(cause_of(at, false) == Cause::kNoTrace);
   at.left.confidence = 0.3;  // what spoke against it was another instance

@@ -65,6 +65,9 @@ struct Standing {
 
   /// In the whole scan and in what other instances left.
   double sureness() const { return std::min(judged.confidence, left.confidence); }
+  /// In the better of the two: what others are found to be may speak against a pose in the whole
+  /// scan, and what they took for nothing is missing in the rest.
+  double likelihood() const { return std::max(judged.confidence, left.confidence); }
 };
 
 /// Judges poses of a scan as it was at the beginning, and as the found instances left it.

@@ -14,7 +14,7 @@ constexpr double kMostlyHidden = 0.55;     // of them, that say nothing
 constexpr std::size_t kFewFeatures = 15;   // on the pose
 constexpr double kFewMatched = 0.04;       // of these
 constexpr std::size_t kFewAgreeing = 5;    // correspondences and pairs that vote for the pose
-constexpr double kLikely = 0.1;            // confidence from which a candidate may be the object
+constexpr double kLikely = 0.06;           // confidence from which a candidate may be the object
 constexpr double kForgiven = 0.8;          // what it has but for the clue that is most against it
 constexpr std::size_t kManyAgreeing = 20;  // of a candidate, so that votes say it is there ...
 constexpr double kNearHighest = 0.5;       // ... with a density of this share of the highest
@@ -97,12 +97,8 @@ Verdict judge_candidate(const Case& of, const Standing& at) {
   }
   const Verdict refused = judge_refused(of, at);
   if (refused.cause != Cause::kRefused) return refused;
-  // What lies on the points of a sure instance, and is not sure itself, is that one's look-alike.
-  // Others that are found explain what speaks against a pose beside them.
-  const bool is_by_rest = at.taken > kMuchTaken || at.left.confidence > at.judged.confidence;
-  const Judged& judged = is_by_rest ? at.left : at.judged;
-  const bool is_likely = (has_votes && judged.confidence >= kLikely) ||
-                         (is_voted_for(at) && judged.forgiven() >= kForgiven);
+  const bool is_likely = (has_votes && at.likelihood() >= kLikely) ||
+                         (is_voted_for(at) && at.judged.forgiven() >= kForgiven);
   if (is_likely && !is_unseen(at.seen)) return refused;
   return {Cause::kNoTrace, worst_clue(at.judged), ""};
 }
