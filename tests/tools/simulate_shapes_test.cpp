@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include "tools/simulate/painted_symmetry.hpp"
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/shapes.hpp"
 #include "tools/simulate/surface_nets.hpp"
@@ -80,4 +81,16 @@ TEST_CASE("random numbers: known first value, mean 0, deviation 1, streams apart
   CHECK(squares / 20000 == Approx(1).epsilon(0.05));
   CHECK(Random(3, 0).next() != Random(3, 1).next());
   CHECK(Random(3, 1).next() == Random(3, 1).next());
+}
+
+TEST_CASE("of a painted thing those symmetries are left that its paint has", "[simulate]") {
+  const Mesh can = make_shape("can", 1, 0.1);
+  const ShapeSymmetry shape = symmetry_of("can");
+  REQUIRE(shape.is_round);
+  CHECK_FALSE(painted_symmetry(shape, can, Paint(can, "can", 1)).is_round);
+  CHECK(painted_symmetry(shape, can, Paint::ground(1)).is_round);  // one colour
+  const Mesh carton = make_shape("carton", 1, 0.1);
+  CHECK(painted_symmetry(symmetry_of("carton"), carton, Paint::ground(1)).turns.size() ==
+        symmetry_of("carton").turns.size());
+  CHECK(painted_symmetry(symmetry_of("carton"), carton, Paint(carton, "carton", 1)).turns.empty());
 }

@@ -108,8 +108,6 @@ void BopWriter::add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& sym
   const std::string axes[3] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) entry["min_" + axes[axis]] = rounded(low[axis] * 1000.0);
   for (int axis = 0; axis < 3; ++axis) entry["size_" + axes[axis]] = rounded(size[axis] * 1000.0);
-  models_info_[std::to_string(obj_id)] = entry;
-  if (paint) return;
   if (symmetry.is_round)
     entry["symmetries_continuous"] = {{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}};
   for (const Eigen::Vector3d& axis : symmetry.axes)

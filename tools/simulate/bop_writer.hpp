@@ -18,7 +18,6 @@ class BopWriter {
   /// std::runtime_error where the folder cannot be made.
   BopWriter(std::filesystem::path out, double least_visible);
 
-  /// With a paint its symmetries are not told: they are those of the shape alone.
   void add_model(int obj_id, const Mesh& mesh, const ShapeSymmetry& symmetry,
                  const Paint* paint = nullptr);
   /// The next image (0, 1 ...) of scene 1. Bodies with an obj_id of 0 are not part of the truth.

@@ -15,6 +15,7 @@
 #include "tools/simulate/bop_writer.hpp"
 #include "tools/simulate/color_camera.hpp"
 #include "tools/simulate/own_mesh.hpp"
+#include "tools/simulate/painted_symmetry.hpp"
 #include "tools/simulate/physics.hpp"
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/scene.hpp"
@@ -256,10 +257,13 @@ void simulate(const Spec& spec, const fs::path& out, std::size_t step) {
   remove_unfinished(unfinished);
   const Studio studio = open_studio(spec);
   BopWriter writer(unfinished, spec.least_visible);
-  for (std::size_t i = 0; i < studio.models.size(); ++i)
-    writer.add_model(static_cast<int>(i) + 1, *studio.models[i],
-                     symmetry_of_model(studio.spec.models[i], *studio.models[i]),
-                     studio.paints.empty() ? nullptr : studio.paints[i].get());
+  for (std::size_t i = 0; i < studio.models.size(); ++i) {
+    const Mesh& mesh = *studio.models[i];
+    const Paint* paint = studio.paints.empty() ? nullptr : studio.paints[i].get();
+    const ShapeSymmetry shape = symmetry_of_model(studio.spec.models[i], mesh);
+    writer.add_model(static_cast<int>(i) + 1, mesh,
+                     paint ? painted_symmetry(shape, mesh, *paint) : shape, paint);
+  }
   make_images(studio, step, writer);
   writer.finish();
   if (!exists) return fs::rename(unfinished, folder);
