@@ -131,7 +131,11 @@ ColorClues color_clues_of(const ColorFit& fit, const Eigen::Vector2d& usual_tint
       terms.likeness_spread * terms.likeness_spread + 1 / std::max(1.0, fit.patches - 3);
   ColorClues clues;
   clues.likeness = usual * (z_of(fit) - usual / 2) / spread;
-  if (!fit.has_tint) return clues;
+  // The offset was fitted where there is a tint: one that nobody sees must not cost what it takes.
+  if (!fit.has_tint) {
+    clues.tint = terms.weights.tint == 0 ? 0 : -terms.offset / terms.weights.tint;
+    return clues;
+  }
   const double off = (fit.tint - usual_tint).squaredNorm();
   const double own = terms.tint * terms.tint, any = terms.any_tint * terms.any_tint;
   clues.tint = std::max(std::log(any / own) - 0.5 * off * (1 / own - 1 / any), -5.0);

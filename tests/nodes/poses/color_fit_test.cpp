@@ -86,7 +86,9 @@ TEST_CASE("a scan in grey is compared by lightness alone", "[poses][color]") {
   const ColorFit fit = setting.fit(kBody.T_scene_model);
   CHECK(fit.likeness > 0.85);
   CHECK_FALSE(fit.has_tint);
-  CHECK(color_clues_of(fit, Eigen::Vector2d::Zero(), {}).tint == 0);
+  ColorClues clues = color_clues_of(fit, Eigen::Vector2d::Zero(), {});
+  clues.likeness = 0;
+  CHECK(log_odds_of(clues, ColorTerms()) == Approx(0).margin(1e-9));  // no tint says nothing
 }
 
 TEST_CASE("clues of colours speak for what is like and against what is not", "[poses][color]") {
