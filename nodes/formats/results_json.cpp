@@ -111,8 +111,7 @@ const ordered_json& about() {
       {"colors",
        "where the scan and the model have any, what they say for a detection, in log odds: "
        "likeness, by how they vary over it; tint, by what they are on the mean (of a grey image "
-       "what "
-       "is neither for nor against)"},
+       "what is neither for nor against)"},
       {"against",
        "what each clue takes from the confidence's log odds, beside what right "
        "detections usually have"}};

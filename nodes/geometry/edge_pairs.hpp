@@ -31,8 +31,8 @@ class FaceEnds {
            const RangeView& view, float resolution, const EdgeTerms& terms);
 
   /// The ends that face the sensor and that the scan has, too, before free space, each held along its
-  /// face. Their weights are those of points on planes, whose
-  /// residuals have this variance [m^2], by how much more exactly planes hold.
+  /// face. Their weights are those of points on planes, whose residuals have this variance [m^2], by
+  /// how much more exactly planes hold.
   std::vector<IcpPair> pairs(const Eigen::Isometry3d& T_scene_model, double variance) const;
 
  private:

@@ -33,15 +33,6 @@ Pivot find_pivot(const std::vector<IcpPair>& pairs) {
   return pivot;
 }
 
-double variance_of(const std::vector<IcpPair>& pairs) {
-  double squares = 0, weight = 0;
-  for (const IcpPair& pair : pairs) {
-    squares += pair.weight * pair.residual * pair.residual;
-    weight += pair.weight;
-  }
-  return squares / weight;
-}
-
 /// (lever x turn, shift) that brings the points closer to the planes.
 Vector6d solve_step(const std::vector<IcpPair>& pairs, const Pivot& pivot, double damping) {
   Matrix6d normal_matrix = Matrix6d::Zero();

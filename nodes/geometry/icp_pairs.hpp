@@ -26,4 +26,16 @@ std::vector<IcpPair> find_icp_pairs(const Cloud& model, const ScanSurface& scan,
                                     const Eigen::Isometry3f& T_scene_model, float distance,
                                     Eigen::Index most);
 
+/// Of a residual, if they were independent [m^2]. For IcpPair and whatever else has a weight and a
+/// residual.
+template <class Pair>
+double variance_of(const std::vector<Pair>& pairs) {
+  double squares = 0, weight = 0;
+  for (const Pair& pair : pairs) {
+    squares += pair.weight * pair.residual * pair.residual;
+    weight += pair.weight;
+  }
+  return squares / weight;
+}
+
 }  // namespace posevote::geometry

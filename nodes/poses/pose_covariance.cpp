@@ -74,17 +74,8 @@ Eigen::LDLT<Matrix6d> normal_equations(const std::vector<Row>& rows) {
   return Eigen::LDLT<Matrix6d>(sum);
 }
 
-/// Of a residual, if they were independent [m^2].
-double plain_variance(const std::vector<Row>& rows) {
-  double squares = 0, weight = 0;
-  for (const Row& row : rows) {
-    squares += row.weight * row.residual * row.residual;
-    weight += row.weight;
-  }
-  return squares / weight;
-}
-
-/// The same, as their sums over cubes of that edge [m] vary: more, where neighbours err alike.
+/// Of a residual [m^2], as their sums over cubes of that edge [m] vary: more than variance_of, where
+/// neighbours err alike.
 double patch_variance(const std::vector<Row>& rows, const Eigen::LDLT<Matrix6d>& equations,
                       double edge, double offset) {
   std::map<std::tuple<int, int, int>, Vector6d> sums;  // ordered: the same bytes each time
@@ -163,7 +154,7 @@ std::optional<Matrix6d> pose_covariance(const Sought& sought,
   if (rows.size() < static_cast<std::size_t>(sought.terms.icp.fewest_pairs)) return std::nullopt;
   const Eigen::LDLT<Matrix6d> equations = normal_equations(rows);
   const double edge = terms.patch * diagonal;
-  const double plain = plain_variance(rows);
+  const double plain = geometry::variance_of(rows);
   const double patches =
       (patch_variance(rows, equations, edge, 0) + patch_variance(rows, equations, edge, 0.5)) / 2;
   const double noise = noise_of(sought, pairs, T_scene_model);
