@@ -63,6 +63,7 @@ struct Model {
   NearSymmetries near_symmetries;
   Outline outline;
   std::shared_ptr<const pairs::PairTable> pairs;  ///< of the finest alone
+  std::shared_ptr<const pairs::PairTable> rims;   ///< likewise
   /// The same object at its next octaves, ascending; the features are all in the finest.
   std::vector<std::shared_ptr<const Model>> coarser;
 

@@ -62,6 +62,7 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put(std::string_view(reinterpret_cast<const char*>(model.outline.ends.data()),
                            model.outline.ends.size()));
   out.put(model.pairs ? model.pairs->step() : 0.0F);  // made anew when it is read
+  out.put(model.rims ? model.rims->step() : 0.0F);    // likewise
   out.put(std::uint64_t{model.coarser.size()});
   for (const auto& octave : model.coarser) put_model(out, *octave);
 }
@@ -148,11 +149,13 @@ Model get_model(ByteReader& in, int depth = 0) {
   const std::string_view ends = in.get_text();
   model.outline.ends.assign(ends.begin(), ends.end());
   const auto pair_step = in.get<float>();
+  const auto rim_step = in.get<float>();
   const auto coarser = in.get<std::uint64_t>();
   if (depth > 0 && coarser > 0) throw std::runtime_error("is damaged: an octave has octaves");
   for (std::uint64_t i = 0; i < coarser; ++i)
     model.coarser.push_back(std::make_shared<const Model>(get_model(in, depth + 1)));
   if (pair_step != 0) model.pairs = pairs::index_pairs(model, pair_step);
+  if (rim_step != 0) model.rims = pairs::index_rims(model, rim_step);
   return model;
 }
 

@@ -18,6 +18,11 @@ struct LocalFrame {
   LocalFrame(const Eigen::Vector3f& at, const Eigen::Vector3f& unit_normal)
       : point(at), normal(unit_normal), u(normal.unitOrthogonal()), v(normal.cross(u)) {}
 
+  /// `unit_u` is perpendicular to the normal.
+  LocalFrame(const Eigen::Vector3f& at, const Eigen::Vector3f& unit_normal,
+             const Eigen::Vector3f& unit_u)
+      : point(at), normal(unit_normal), u(unit_u), v(normal.cross(u)) {}
+
   /// The turn from u to an offset seen along the normal, in 256ths of a full turn; of an offset along
   /// the normal any.
   std::uint8_t turn_to(const Eigen::Vector3f& offset) const {

@@ -5,28 +5,36 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "nodes/pairs/pair_key.hpp"
+#include "nodes/pairs/rims.hpp"
 #include "nodes/pairs/thin_surface.hpp"
 
 namespace posevote::pairs {
 namespace {
 
-constexpr float kMostSteps = 101;  ///< tables grow with it to the fourth power
+constexpr float kMostSteps = 101;        ///< tables grow with it to the fourth power
+constexpr std::size_t kMostRims = 1500;  ///< tables grow with its square
 
-}  // namespace
-
-PairTable::PairTable(const Cloud& cloud, float step, float reach) : step_(step), reach_(reach) {
+float checked(float step, float reach) {
   if (!(step >= reach / kMostSteps) || !(step <= reach))
     throw std::runtime_error("a step of pairs of " + std::to_string(step) + " m does not fit " +
                              std::to_string(reach) + " m");
-  const Cloud thin = thin_surface(cloud, step);
-  const Eigen::Index count = thin.points.rows();
+  return step;
+}
+
+}  // namespace
+
+PairTable::PairTable(const Cloud& cloud, float step, float reach)
+    : PairTable(frames_of(thin_surface(cloud, checked(step, reach))), step, reach) {}
+
+PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach)
+    : step_(checked(step, reach)), reach_(reach), points_(std::move(points)) {
+  const std::size_t count = points_.size();
   if (count > std::numeric_limits<std::uint16_t>::max())
     throw std::runtime_error("pairs of " + std::to_string(count) +
                              " points are too many: the step of pairs is too small");
-  for (Eigen::Index i = 0; i < count; ++i)
-    points_.emplace_back(thin.points.row(i).transpose(), thin.normals.row(i).transpose());
   starts_.assign(pair_bins(length_bins(step, reach)) + 1, 0);
   const auto for_each_pair = [this](const auto& visit) {
     for (std::size_t a = 0; a < points_.size(); ++a)
@@ -48,6 +56,14 @@ PairTable::PairTable(const Cloud& cloud, float step, float reach) : step_(step),
 std::shared_ptr<const PairTable> index_pairs(const Model& model, float step) {
   const Model& coarsest = model.coarser.empty() ? model : *model.coarser.back();
   return std::make_shared<const PairTable>(coarsest.cloud, step, model.diagonal);
+}
+
+std::shared_ptr<const PairTable> index_rims(const Model& model, float step) {
+  const std::vector<Rim> all = find_rims(model.cloud, kRimRadius * model.resolution);
+  float edge = checked(step, model.diagonal);
+  std::vector<Rim> thin = thin_rims(all, edge);
+  while (thin.size() > kMostRims) thin = thin_rims(all, edge *= 1.2F);
+  return std::make_shared<const PairTable>(frames_of(thin), step, model.diagonal);
 }
 
 }  // namespace posevote::pairs

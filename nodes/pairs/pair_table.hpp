@@ -25,6 +25,8 @@ class PairTable {
   /// surface, or no normals. Time and memory grow with the square of its points: at a step of a
   /// fifteenth of the size some 400 points and 150 thousand pairs, in 10 ms.
   PairTable(const Cloud& cloud, float step, float reach);
+  /// Of points that are thin already; there may be none.
+  PairTable(std::vector<LocalFrame> points, float step, float reach);
 
   float step() const { return step_; }
   float reach() const { return reach_; }
@@ -44,5 +46,8 @@ class PairTable {
 
 /// Of the coarsest of a model's octaves: thinned, it is the smoothest. `step` [m].
 std::shared_ptr<const PairTable> index_pairs(const Model& model, float step);
+
+/// Of the ends of its faces (rims.hpp), as the finest octave has them. `step` [m].
+std::shared_ptr<const PairTable> index_rims(const Model& model, float step);
 
 }  // namespace posevote::pairs

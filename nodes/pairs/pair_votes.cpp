@@ -2,6 +2,7 @@
 #include "nodes/pairs/pair_votes.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numbers>
 #include <span>
 
@@ -9,8 +10,29 @@
 
 namespace posevote::pairs {
 
-void PairVotes::count_pairs(const PairTable& table, const LocalFrame& at, const PairScene& scene) {
-  counts_.assign(table.points().size() * kTurns, 0);
+namespace {
+
+/// Turns that differ by less are one where a frame leaves none open: 20 deg, in 256ths.
+constexpr int kSameTurn = 14;
+constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
+
+PointMatrix points_of(const std::vector<LocalFrame>& frames) {
+  PointMatrix points(static_cast<Eigen::Index>(frames.size()), 3);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = frames[i].point.transpose();
+  return points;
+}
+
+}  // namespace
+
+PairScene::PairScene(const std::vector<LocalFrame>& points, float edge)
+    : grid_(points_of(points), 4 * edge) {
+  for (const LocalFrame& one : points) points_.push_back({one.point, one.normal});
+}
+
+template <class Count>
+void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
+                              const Count& count) {
   for (const std::uint32_t bin : touched_) seen_[bin] = 0;
   touched_.clear();
   seen_.resize(std::max(seen_.size(), table.bins()));
@@ -24,8 +46,7 @@ void PairVotes::count_pairs(const PairTable& table, const LocalFrame& at, const 
     if (seen_[bin] & flag) return;
     if (seen_[bin] == 0) touched_.push_back(bin);
     seen_[bin] |= flag;
-    for (const PairEnd end : table[bin])
-      ++counts_[end.point * kTurns + static_cast<std::uint8_t>(turn - end.turn) / (256 / kTurns)];
+    for (const PairEnd end : table[bin]) count(end, static_cast<std::uint8_t>(turn - end.turn));
   });
 }
 
@@ -48,17 +69,48 @@ PairPeak PairVotes::peak_of(std::uint16_t point) const {
   return best;
 }
 
-std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const LocalFrame& at,
-                                       const PairScene& scene, std::size_t count, double ratio) {
-  count_pairs(table, at, scene);
+/// Of every point that may be among the best.
+std::vector<PairPeak> PairVotes::peaks_of_turns(std::size_t points, double ratio) const {
   std::vector<PairPeak> peaks;
   std::uint32_t best = 0;
-  for (std::size_t point = 0; point < table.points().size(); ++point) {
+  for (std::size_t point = 0; point < points; ++point) {
     const auto counts = std::span(counts_).subspan(point * kTurns, kTurns);
     const std::uint32_t most = *std::max_element(counts.begin(), counts.end());
     if (most == 0 || 3 * most < ratio * best) continue;  // three turns make a peak
     peaks.push_back(peak_of(static_cast<std::uint16_t>(point)));
     best = std::max(best, peaks.back().pairs);
+  }
+  return peaks;
+}
+
+std::vector<PairPeak> PairVotes::peaks_of_points(double ratio) const {
+  std::vector<PairPeak> peaks;
+  if (counts_.empty()) return peaks;
+  const double least =
+      std::max<double>(kFewestPairs, ratio * *std::max_element(counts_.begin(), counts_.end()));
+  for (std::size_t point = 0; point < counts_.size(); ++point)
+    if (counts_[point] >= least)
+      peaks.push_back({static_cast<std::uint16_t>(point), 0, counts_[point]});
+  return peaks;
+}
+
+std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const LocalFrame& at,
+                                       const PairScene& scene, std::size_t count, double ratio,
+                                       Turn turn) {
+  const std::size_t points = table.points().size();
+  std::vector<PairPeak> peaks;
+  if (turn == Turn::kOpen) {
+    counts_.assign(points * kTurns, 0);
+    for_each_pair(table, at, scene, [this](PairEnd end, std::uint8_t off) {
+      ++counts_[end.point * kTurns + off / (256 / kTurns)];
+    });
+    peaks = peaks_of_turns(points, ratio);
+  } else {
+    counts_.assign(points, 0);
+    for_each_pair(table, at, scene, [this](PairEnd end, std::uint8_t off) {
+      if (std::abs(static_cast<std::int8_t>(off)) <= kSameTurn) ++counts_[end.point];
+    });
+    peaks = peaks_of_points(ratio);
   }
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const PairPeak& a, const PairPeak& b) { return a.pairs > b.pairs; });

@@ -19,7 +19,9 @@ class PairScene {
   };
 
   /// `edge`: of thin_surface [m].
-  PairScene(const Cloud& scan, float edge) : PairScene(thin_surface(scan, edge), 4 * edge, 0) {}
+  PairScene(const Cloud& scan, float edge) : PairScene(frames_of(thin_surface(scan, edge)), edge) {}
+  /// Of points that are thin already, `edge` [m] apart.
+  PairScene(const std::vector<LocalFrame>& points, float edge);
 
   /// Calls visit(point) for each within `reach` [m].
   template <class Visit>
@@ -28,11 +30,6 @@ class PairScene {
   }
 
  private:
-  PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
-    for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
-      points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
-  }
-
   geometry::PointGrid grid_;
   std::vector<Point> points_;  ///< side by side: each is read alone
 };
@@ -45,6 +42,9 @@ struct PairPeak {
   std::uint32_t pairs = 0;  ///< how many agree
 };
 
+/// What of a pose a point with its frame leaves open: the turn about its normal, or nothing.
+enum class Turn { kOpen, kKnown };
+
 /// Counts the pairs that one scan point makes with those around it, by the model's point that it
 /// would be and by the turn (Drost et al., CVPR 2010, section 3.3). Keeps its memory for the next
 /// point.
@@ -52,15 +52,21 @@ class PairVotes {
  public:
   /// The `count` best, in descending order, none with less than `ratio` of the best one's pairs.
   std::vector<PairPeak> peaks(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              std::size_t count, double ratio);
+                              std::size_t count, double ratio, Turn turn = Turn::kOpen);
 
  private:
   static constexpr std::uint32_t kTurns = 32;
 
-  void count_pairs(const PairTable& table, const LocalFrame& at, const PairScene& scene);
+  /// Calls count(end, turn) for each pair of the model that the scan has, too, and the turn about
+  /// the point at which it has it.
+  template <class Count>
+  void for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
+                     const Count& count);
+  std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio) const;
+  std::vector<PairPeak> peaks_of_points(double ratio) const;
   PairPeak peak_of(std::uint16_t point) const;
 
-  std::vector<std::uint16_t> counts_;   ///< per point of the model and turn
+  std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins
 };

@@ -29,6 +29,7 @@ namespace {
 
 struct Params : descriptors::IndexOptions {
   double pair_step = 0.07;
+  double rim_step = 0.025;
 };
 
 /// What training made of one model at one octave.
@@ -75,6 +76,7 @@ Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<
   }
   model.features = descriptors::stack_octaves(features, scales);
   model.pairs = pairs::index_pairs(model, static_cast<float>(params.pair_step) * model.diagonal);
+  model.rims = pairs::index_rims(model, static_cast<float>(params.rim_step) * model.diagonal);
   return model;
 }
 
@@ -152,6 +154,8 @@ const auto registered =
         .output("library")
         .param("pair_step", &Params::pair_step, "x diagonal",
                "How far apart the points of cast_pairs are.", graph::in_range(0.02, 0.5))
+        .param("rim_step", &Params::rim_step, "x diagonal",
+               "How far apart the points of cast_rims are.", graph::in_range(0.02, 0.5))
         .param("search", &Params::search, "",
                "How matching searches: exact and fast, exact by FLANN's k-d tree, or by FLANN's "
                "randomised trees, whose matches differ from run to run.",

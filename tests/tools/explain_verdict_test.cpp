@@ -250,7 +250,7 @@ TEST_CASE("only settings that act on the stage are tried", "[explain]") {
   CHECK(settings(Cause::kNotSeen, "").empty());
   CHECK(settings(Cause::kOutranked, "glance").front() == "segment_objects.shortlist=640");
   CHECK(settings(Cause::kOutranked, "refine").front() == "segment_objects.finalists=20");
-  CHECK(settings(Cause::kDisagree, "").at(2) == "scan_octaves.finest=0.002");
+  CHECK(settings(Cause::kDisagree, "").at(3) == "scan_octaves.finest=0.002");
   one.best = good();
   one.best->left.confidence = 0.3;
   CHECK(settings(Cause::kRefused, "votes") ==

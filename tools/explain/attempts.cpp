@@ -35,7 +35,8 @@ std::vector<std::string> wider_search(const std::string& step, const poses::Segm
 }
 
 std::vector<std::string> better_votes(double resolution) {
-  std::vector<std::string> settings{"cast_pairs.references=1000", "scan_octaves.radii=3"};
+  std::vector<std::string> settings{"cast_pairs.references=1000", "cast_rims.references=2000",
+                                    "scan_octaves.radii=3"};
   if (resolution > 0) settings.push_back(format("scan_octaves.finest=%.4g", resolution / 2));
   settings.emplace_back("drop_flat.min_relief=0");
   return settings;

@@ -43,7 +43,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{11});
+  out.put(std::uint32_t{12});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -97,6 +97,9 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   REQUIRE(loaded->models[2]->pairs);
   CHECK(loaded->models[2]->pairs->step() == pairs.step());
   CHECK(loaded->models[2]->pairs->points().size() == pairs.points().size());
+  REQUIRE(loaded->models[2]->rims);
+  CHECK(loaded->models[2]->rims->step() == library.models[2]->rims->step());
+  CHECK(loaded->models[2]->rims->points().size() == library.models[2]->rims->points().size());
   const DescriptorMatrix queries = features_at({3, 33, 77}).descriptors;
   const auto before = library.octaves[0].index->nearest_two(queries);
   const auto after = loaded->octaves[0].index->nearest_two(queries);
@@ -223,7 +226,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 11"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 12"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/pairs/rims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "graph/parallel.hpp"
+#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/voxels.hpp"
+
+namespace posevote::pairs {
+namespace {
+
+constexpr float kSameFace = 0.87F;  // cosine of 30 deg between normals
+constexpr std::size_t kFewest = 6;  // neighbours
+// x radius.
+constexpr float kOffPlane = 0.25F;
+constexpr float kHalfDisc = 0.424F;  // how far off the mean of half a disc is: 4 / (3 pi)
+constexpr float kLeastOff = 0.25F;   // that of a disc that is cut 0.3 from its centre
+constexpr float kComesIn = 0.55F;    // by which the mean comes in as the cut goes out
+
+std::optional<Rim> rim_at(const Cloud& cloud, const geometry::PointGrid& grid, Eigen::Index i,
+                          float radius) {
+  const Eigen::Vector3f point = cloud.points.row(i).transpose();
+  const Eigen::Vector3f normal = cloud.normals.row(i).transpose();
+  if (!normal.allFinite() || normal.isZero()) return std::nullopt;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  std::size_t count = 0;
+  grid.for_each_within(point, radius, [&](std::uint32_t j, float) {
+    const Eigen::Vector3f offset = cloud.points.row(j).transpose() - point;
+    if (std::abs(normal.dot(offset)) > kOffPlane * radius) return;
+    if (!(cloud.normals.row(j).dot(normal) > kSameFace)) return;
+    sum += offset;
+    ++count;
+  });
+  if (count < kFewest) return std::nullopt;
+  const Eigen::Vector3f mean = sum / static_cast<float>(count);
+  const Eigen::Vector3f off = mean - normal.dot(mean) * normal;
+  const float share = off.norm() / radius;
+  if (!(share > kLeastOff)) return std::nullopt;
+  const Eigen::Vector3f direction = -off.normalized();
+  const float ahead = std::max(0.0F, (kHalfDisc - share) / kComesIn) * radius;
+  return Rim{point + ahead * direction, normal, direction};
+}
+
+/// Ends of one cube that are of one face and direction.
+struct Side {
+  Rim first, sum;
+  float count = 1;
+
+  bool has(const Rim& rim) const {
+    return first.normal.dot(rim.normal) > kSameFace &&
+           first.direction.dot(rim.direction) > kSameFace;
+  }
+  void add(const Rim& rim) {
+    sum.point += rim.point;
+    sum.normal += rim.normal;
+    sum.direction += rim.direction;
+    ++count;
+  }
+  Rim mean() const {
+    const Eigen::Vector3f normal = sum.normal.normalized();
+    return {sum.point / count, normal,
+            (sum.direction - normal.dot(sum.direction) * normal).normalized()};
+  }
+};
+
+}  // namespace
+
+std::vector<Rim> find_rims(const Cloud& cloud, float radius) {
+  const geometry::PointGrid grid(cloud.points, radius);
+  std::vector<std::optional<Rim>> found(static_cast<std::size_t>(cloud.points.rows()));
+  graph::parallel_for(found.size(), 256, [&](std::size_t i) {
+    found[i] = rim_at(cloud, grid, static_cast<Eigen::Index>(i), radius);
+  });
+  std::vector<Rim> rims;
+  for (const auto& one : found)
+    if (one) rims.push_back(*one);
+  return rims;
+}
+
+std::vector<Rim> thin_rims(const std::vector<Rim>& rims, float edge) {
+  if (rims.empty()) return {};
+  PointMatrix points(static_cast<Eigen::Index>(rims.size()), 3);
+  for (std::size_t i = 0; i < rims.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = rims[i].point.transpose();
+  const geometry::Voxels voxels = geometry::group_by_voxel(points, edge);
+  std::vector<Rim> thin;
+  std::vector<Side> sides;
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    sides.clear();
+    for (const std::uint32_t i : voxels[v]) {
+      const auto same = std::find_if(sides.begin(), sides.end(),
+                                     [&](const Side& side) { return side.has(rims[i]); });
+      if (same == sides.end())
+        sides.push_back({rims[i], rims[i]});
+      else
+        same->add(rims[i]);
+    }
+    for (const Side& side : sides) thin.push_back(side.mean());
+  }
+  return thin;
+}
+
+std::vector<LocalFrame> frames_of(const std::vector<Rim>& rims) {
+  std::vector<LocalFrame> frames;
+  for (const Rim& rim : rims) frames.emplace_back(rim.point, rim.direction, rim.normal);
+  return frames;
+}
+
+}  // namespace posevote::pairs
