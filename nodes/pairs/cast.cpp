@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "graph/parallel.hpp"
 
@@ -22,6 +21,14 @@ void add_vote(VoteSet& votes, const PairTable& table, const Reference& reference
 }
 
 }  // namespace
+
+std::vector<const PairTable*> tables_of(const PerObject<VoteSet>& votes,
+                                        std::shared_ptr<const PairTable> Model::*kind) {
+  std::vector<const PairTable*> tables;
+  for (const auto& slot : votes.slots)
+    tables.push_back(slot->model ? ((*slot->model).*kind).get() : nullptr);
+  return tables;
+}
 
 SharedSteps share_steps(const std::vector<const PairTable*>& tables) {
   SharedSteps steps;

@@ -2,6 +2,7 @@
 // How the nodes that vote by pairs of points do it, whatever the points are.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "graph/value.hpp"
@@ -23,6 +24,10 @@ struct Source {
   const PairScene* scene = nullptr;
   const std::vector<Reference>* references = nullptr;
 };
+
+/// A kind of table of each object's model; null where it has none.
+std::vector<const PairTable*> tables_of(const PerObject<VoteSet>& votes,
+                                        std::shared_ptr<const PairTable> Model::*kind);
 
 /// Steps of tables, rounded to powers of the square root of two: so models of like size share
 /// what is made of a scan, and which others are sought changes nothing.

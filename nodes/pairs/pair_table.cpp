@@ -24,6 +24,13 @@ float checked(float step, float reach) {
   return step;
 }
 
+std::vector<LocalFrame> frames_of(const Cloud& thin) {
+  std::vector<LocalFrame> frames;
+  for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
+    frames.emplace_back(thin.points.row(i).transpose(), thin.normals.row(i).transpose());
+  return frames;
+}
+
 }  // namespace
 
 PairTable::PairTable(const Cloud& cloud, float step, float reach)

@@ -9,26 +9,13 @@
 #include "nodes/pairs/pair_key.hpp"
 
 namespace posevote::pairs {
-
 namespace {
 
 /// Turns that differ by less are one where a frame leaves none open: 20 deg, in 256ths.
 constexpr int kSameTurn = 14;
 constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
 
-PointMatrix points_of(const std::vector<LocalFrame>& frames) {
-  PointMatrix points(static_cast<Eigen::Index>(frames.size()), 3);
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    points.row(static_cast<Eigen::Index>(i)) = frames[i].point.transpose();
-  return points;
-}
-
 }  // namespace
-
-PairScene::PairScene(const std::vector<LocalFrame>& points, float edge)
-    : grid_(points_of(points), 4 * edge) {
-  for (const LocalFrame& one : points) points_.push_back({one.point, one.normal});
-}
 
 template <class Count>
 void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,

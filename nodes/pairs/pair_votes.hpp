@@ -19,9 +19,9 @@ class PairScene {
   };
 
   /// `edge`: of thin_surface [m].
-  PairScene(const Cloud& scan, float edge) : PairScene(frames_of(thin_surface(scan, edge)), edge) {}
+  PairScene(const Cloud& scan, float edge) : PairScene(of_thin(thin_surface(scan, edge), edge)) {}
   /// Of points that are thin already, `edge` [m] apart.
-  PairScene(const std::vector<LocalFrame>& points, float edge);
+  static PairScene of_thin(const Cloud& thin, float edge) { return {thin, 4 * edge, 0}; }
 
   /// Calls visit(point) for each within `reach` [m].
   template <class Visit>
@@ -30,6 +30,11 @@ class PairScene {
   }
 
  private:
+  PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
+    for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
+      points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
+  }
+
   geometry::PointGrid grid_;
   std::vector<Point> points_;  ///< side by side: each is read alone
 };

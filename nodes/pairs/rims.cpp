@@ -82,10 +82,7 @@ std::vector<Rim> find_rims(const Cloud& cloud, float radius) {
 
 std::vector<Rim> thin_rims(const std::vector<Rim>& rims, float edge) {
   if (rims.empty()) return {};
-  PointMatrix points(static_cast<Eigen::Index>(rims.size()), 3);
-  for (std::size_t i = 0; i < rims.size(); ++i)
-    points.row(static_cast<Eigen::Index>(i)) = rims[i].point.transpose();
-  const geometry::Voxels voxels = geometry::group_by_voxel(points, edge);
+  const geometry::Voxels voxels = geometry::group_by_voxel(cloud_of(rims).points, edge);
   std::vector<Rim> thin;
   std::vector<Side> sides;
   for (std::size_t v = 0; v < voxels.size(); ++v) {
@@ -101,6 +98,15 @@ std::vector<Rim> thin_rims(const std::vector<Rim>& rims, float edge) {
     for (const Side& side : sides) thin.push_back(side.mean());
   }
   return thin;
+}
+
+Cloud cloud_of(const std::vector<Rim>& rims) {
+  Cloud cloud{PointMatrix(std::ssize(rims), 3), PointMatrix(std::ssize(rims), 3), {}};
+  for (std::size_t i = 0; i < rims.size(); ++i) {
+    cloud.points.row(static_cast<Eigen::Index>(i)) = rims[i].point.transpose();
+    cloud.normals.row(static_cast<Eigen::Index>(i)) = rims[i].direction.transpose();
+  }
+  return cloud;
 }
 
 std::vector<LocalFrame> frames_of(const std::vector<Rim>& rims) {

@@ -28,7 +28,10 @@ std::vector<Rim> find_rims(const Cloud& cloud, float radius);
 /// For each cube of edge `edge` [m] one for each face and direction, 30 deg apart.
 std::vector<Rim> thin_rims(const std::vector<Rim>& rims, float edge);
 
-/// For pairs: the direction in which a face ends is the normal of a frame, that of the face its u.
+/// For pairs, their points with the directions in which the faces end for normals.
+Cloud cloud_of(const std::vector<Rim>& rims);
+
+/// The same as frames, of which u is the normal of the face.
 /// Two ends of one straight edge then lie in one plane, and are as little a pair as two points of a
 /// plane (pair_key.hpp).
 std::vector<LocalFrame> frames_of(const std::vector<Rim>& rims);

@@ -67,11 +67,4 @@ Cloud thin_surface(const Cloud& cloud, float edge) {
   return cloud_of(points, normals);
 }
 
-std::vector<LocalFrame> frames_of(const Cloud& thin) {
-  std::vector<LocalFrame> frames;
-  for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
-    frames.emplace_back(thin.points.row(i).transpose(), thin.normals.row(i).transpose());
-  return frames;
-}
-
 }  // namespace posevote::pairs

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
 #include "nodes/data/cloud.hpp"
-#include "nodes/pairs/local_frame.hpp"
 
 namespace posevote::pairs {
 
@@ -14,8 +11,5 @@ namespace posevote::pairs {
 /// cube's points have are noise and left out, points without a usable normal too. Nothing of
 /// nothing. O(n log n).
 Cloud thin_surface(const Cloud& cloud, float edge);
-
-/// For pairs: a frame for each of its points.
-std::vector<LocalFrame> frames_of(const Cloud& thin);
 
 }  // namespace posevote::pairs

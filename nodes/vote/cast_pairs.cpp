@@ -63,9 +63,7 @@ PerObject<VoteSet> cast_pairs(const PerObject<VoteSet>& given, const FeatureSet&
   const std::vector<pairs::Reference> references =
       pick_references(features, static_cast<std::size_t>(params.references));
   if (references.empty()) return given;
-  std::vector<const pairs::PairTable*> tables;
-  for (const auto& slot : given.slots)
-    tables.push_back(slot->model ? slot->model->pairs.get() : nullptr);
+  const auto tables = pairs::tables_of(given, &Model::pairs);
   const pairs::SharedSteps steps = pairs::share_steps(tables);
   const auto scenes = scenes_of(cloud, steps.edges);
   std::vector<pairs::Source> sources;

@@ -17,7 +17,6 @@
 //
 //   cast_rims: {in: [pair_votes, scene_features, scene_cloud, scale], out: [votes, vote_points]}
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -92,7 +91,7 @@ RimScene make_scene(const std::vector<pairs::Rim>& rims, float edge, const Param
   append(vote_points, picked);
   const float apart = static_cast<float>(params.partners) * edge;
   scene.partners = std::make_unique<const pairs::PairScene>(
-      pairs::frames_of(pairs::thin_rims(rims, apart)), apart);
+      pairs::PairScene::of_thin(pairs::cloud_of(pairs::thin_rims(rims, apart)), apart));
   return scene;
 }
 
@@ -101,9 +100,7 @@ std::tuple<PerObject<VoteSet>, FeatureSet> cast_rims(const PerObject<VoteSet>& g
                                                      const Scale& scale, const Params& params) {
   FeatureSet vote_points{features.points, features.normals, {}, {}, octaves_of(features)};
   if (params.references == 0) return {given, std::move(vote_points)};
-  std::vector<const pairs::PairTable*> tables;
-  for (const auto& slot : given.slots)
-    tables.push_back(slot->model ? slot->model->rims.get() : nullptr);
+  const auto tables = pairs::tables_of(given, &Model::rims);
   const pairs::SharedSteps steps = pairs::share_steps(tables);
   const std::vector<pairs::Rim> rims = seen_rims(cloud, scale.resolution);
   std::vector<RimScene> scenes;

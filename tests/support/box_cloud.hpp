@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box, as a model and as what a sensor sees of its one side: all that a carton shows from above.
+// Clouds of flat rectangles, and of a box that is made of them.
 #pragma once
 
 #include <Eigen/Geometry>
-#include <memory>
 #include <vector>
 
 #include "nodes/data/model.hpp"

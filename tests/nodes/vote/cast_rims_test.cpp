@@ -47,9 +47,9 @@ struct Scene {
       add_rectangle(points, normals, center, R * Eigen::Vector3f(0, height, 0),
                     R * Eigen::Vector3f(width, 0, 0), kSpacing);  // toward the sensor
     };
-    add({0.02F, -0.01F, 0.78F}, kSize.x(), kSize.y(), 0.6F);  // z is the box's longest side
+    const float front_z = 0.8F - kSize.z() / 2;
+    add({0.02F, -0.01F, front_z}, kSize.x(), kSize.y(), 0.6F);
     const Eigen::Isometry3f T = T_scene_model.cast<float>();
-    for (Eigen::RowVector3f& p : points) p.z() = 0.8F - kSize.z() / 2;
     std::vector<Eigen::RowVector3f> front = points, front_normals = normals;
     points.clear();
     normals.clear();
@@ -62,7 +62,7 @@ struct Scene {
     const std::size_t table = points.size();
     add({0, 0, 0.86F}, 0.4F, 0.4F, 0);
     for (std::size_t i = points.size(); i-- > table;) {  // what the box hides of it
-      const Eigen::Vector3f on_front = points[i].transpose() * (0.8F - kSize.z() / 2) / 0.86F;
+      const Eigen::Vector3f on_front = points[i].transpose() * front_z / 0.86F;
       const Eigen::Vector3f p = T.inverse() * on_front;
       if (std::abs(p.x()) < kSize.x() / 2 && std::abs(p.y()) < kSize.y() / 2) {
         points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
