@@ -41,10 +41,13 @@ namespace pairs {
 class PairTable;
 }
 
-/// Where a model's surfaces end (find_outline): a bit for each direction around a point.
+/// Where a model's surfaces end (find_outline): per point of its cloud, a bit for each direction in
+/// which it is no more.
 struct Outline {
-  float reach = 0;                 ///< how far ahead was looked [m]
-  std::vector<std::uint8_t> ends;  ///< per point of the model's cloud
+  float reach = 0;                   ///< how far ahead was looked for ends [m]
+  std::vector<std::uint8_t> ends{};  ///< of the body
+  float gap_reach = 0;               ///< the same, for gaps
+  std::vector<std::uint8_t> gaps{};  ///< holes, slots, teeth, and where the body ends
 };
 
 /// One object, preprocessed and described. Its cloud, near symmetries and outline belong together.

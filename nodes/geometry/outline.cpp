@@ -10,12 +10,14 @@
 
 namespace posevote::geometry {
 
-Outline outline_of(const Cloud& model, float reach) {
-  Outline outline{reach, std::vector<std::uint8_t>(static_cast<std::size_t>(model.points.rows()))};
+namespace {
+
+std::vector<std::uint8_t> ends_of(const Cloud& model, float reach) {
+  std::vector<std::uint8_t> all(static_cast<std::size_t>(model.points.rows()));
   const float near = reach / 2;
   const PointGrid grid(model.points, near);
-  graph::parallel_for(outline.ends.size(), 256, [&](std::size_t i) {
-    std::uint8_t& ends = outline.ends[i];
+  graph::parallel_for(all.size(), 256, [&](std::size_t i) {
+    std::uint8_t& ends = all[i];
     for (int k = 0; k < kOutlineDirections; ++k) {
       const Eigen::Vector3f place = place_ahead(model, static_cast<Eigen::Index>(i), k, reach);
       bool goes_on = false;
@@ -23,7 +25,13 @@ Outline outline_of(const Cloud& model, float reach) {
       if (!goes_on) ends = static_cast<std::uint8_t>(ends | 1U << k);
     }
   });
-  return outline;
+  return all;
+}
+
+}  // namespace
+
+Outline outline_of(const Cloud& model, float reach, float gap_reach) {
+  return {reach, ends_of(model, reach), gap_reach, ends_of(model, gap_reach)};
 }
 
 Eigen::Vector3f place_ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {

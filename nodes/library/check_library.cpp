@@ -90,6 +90,9 @@ void check_model(const Model& model) {
   require_length(model.outline.reach, "the outline's reach");
   require_count(static_cast<Eigen::Index>(model.outline.ends.size()), model.cloud.points.rows(),
                 "points in the outline");
+  require_length(model.outline.gap_reach, "the gaps' reach");
+  require_count(static_cast<Eigen::Index>(model.outline.gaps.size()), model.cloud.points.rows(),
+                "points of gaps");
   for (const auto& octave : model.coarser) {
     require(octave->resolution > model.resolution, "octaves do not ascend");
     check_model(*octave);

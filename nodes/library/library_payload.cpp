@@ -61,6 +61,9 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put(model.outline.reach);
   out.put(std::string_view(reinterpret_cast<const char*>(model.outline.ends.data()),
                            model.outline.ends.size()));
+  out.put(model.outline.gap_reach);
+  out.put(std::string_view(reinterpret_cast<const char*>(model.outline.gaps.data()),
+                           model.outline.gaps.size()));
   out.put(model.pairs ? model.pairs->step() : 0.0F);  // made anew when it is read
   out.put(model.rims ? model.rims->step() : 0.0F);    // likewise
   out.put(std::uint64_t{model.coarser.size()});
@@ -148,6 +151,9 @@ Model get_model(ByteReader& in, int depth = 0) {
   model.outline.reach = in.get<float>();
   const std::string_view ends = in.get_text();
   model.outline.ends.assign(ends.begin(), ends.end());
+  model.outline.gap_reach = in.get<float>();
+  const std::string_view gaps = in.get_text();
+  model.outline.gaps.assign(gaps.begin(), gaps.end());
   const auto pair_step = in.get<float>();
   const auto rim_step = in.get<float>();
   const auto coarser = in.get<std::uint64_t>();

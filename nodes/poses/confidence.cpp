@@ -13,7 +13,7 @@ namespace {
 constexpr double kUsualVotesPerFeature = 0.3;
 
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
-constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 1, 8.3};
+constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 1, 8.3, -3.1, 0.1, -0.15};
 
 /// Beyond these bounds more is neither better nor worse.
 double bounded_log(double value, double low, double high) {
@@ -31,10 +31,16 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   clues[kVotes] = bounded_log(backing.votes_per_feature.value_or(kUsualVotesPerFeature), 0.002, 3);
   clues[kLead] = bounded_log(backing.lead, 0.1, 10);
   clues[kExactness] = backing.exactness;
-  clues[kSupport] = bounded_log(static_cast<double>(fit.supported) * fit.stands_for, 30, 20000);
+  // Of a large thing much is supported, wherever it is put.
+  clues[kSupport] = bounded_log(static_cast<double>(fit.supported) * fit.stands_for, 30, 5000);
   // Of few points a surface that goes on may be noise, of many it is not: a bracket in the corner
   // of a bin.
   clues[kOverhang] = (1 - shares.continuity) * clues[kSupport];
+  clues[kGaps] = bounded_log(shares.gaps + 0.01, 0.01, 0.5);
+  clues[kFilled] = shares.filled_holes * clues[kSupport];
+  clues[kVisible] = bounded_log(static_cast<double>(fit.facing - fit.hidden) /
+                                    static_cast<double>(std::max<std::size_t>(1, fit.facing)),
+                                0.02, 1);
   return clues;
 }
 

@@ -18,7 +18,7 @@ struct Judged {
   Verdict verdict = Verdict::kAway;
   double residual = 0;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  unsigned ends = 0, overhang = 0;
+  unsigned ends = 0, overhang = 0, gaps = 0, filled = 0, holes = 0, filled_holes = 0;
 };
 
 /// What the sensor measured, and which distances count as near and as far [m].
@@ -40,21 +40,20 @@ Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
   return {before < -sensed.clear_distance ? Verdict::kHidden : Verdict::kMismatched};
 }
 
-/// Looks where the model ends whether the scan does; what is hidden there does not tell.
-void judge_ends(const Cloud& model, const Outline& outline, Eigen::Index i,
-                const Eigen::Isometry3f& T, const geometry::OrientedPoint& p, const Sensed& sensed,
-                Judged& judged) {
-  geometry::for_each_end(model, outline, i, [&](const Eigen::Vector3f& end) {
-    const Eigen::Vector3f place = T * end;
-    if (sensed.scan.nearest_compatible({place, p.normal}, sensed.tolerance)) {
-      ++judged.overhang;
-    } else {
-      const float measured = sensed.view.measured_range(place);
-      const float range = (place - sensed.scan.viewpoint()).norm();
-      if (measured == 0 || measured < range - sensed.clear_distance) return;
-    }
-    ++judged.ends;
-  });
+/// Of a place where the model's surface is no more: what the scan's does there.
+enum class End { kEnds, kGoesOn, kHidden };
+
+End look_at_end(const geometry::OrientedPoint& place, const Sensed& sensed) {
+  if (sensed.scan.nearest_compatible(place, sensed.tolerance)) return End::kGoesOn;
+  const float measured = sensed.view.measured_range(place.point);
+  const float range = (place.point - sensed.scan.viewpoint()).norm();
+  return measured == 0 || measured < range - sensed.clear_distance ? End::kHidden : End::kEnds;
+}
+
+/// What is hidden does not tell.
+void count_end(End end, unsigned& told, unsigned& goes_on) {
+  told += end != End::kHidden;
+  goes_on += end == End::kGoesOn;
 }
 
 Fit count(const std::vector<Judged>& points) {
@@ -74,6 +73,10 @@ Fit count(const std::vector<Judged>& points) {
     fit.hidden += point.verdict == Verdict::kHidden;
     fit.ends += point.ends;
     fit.overhang += point.overhang;
+    fit.gaps += point.gaps;
+    fit.filled += point.filled;
+    fit.holes += point.holes;
+    fit.filled_holes += point.filled_holes;
   }
   if (fit.supported == 0) return fit;
   fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
@@ -92,17 +95,25 @@ double against(const Fit& fit, const FitTerms& terms) {
 
 Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
                 const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
-                float tolerance, Eigen::Index samples, const FitTerms& terms) {
+                float tolerance, const Sampling& sampling, const FitTerms& terms) {
   const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::Index stride = samples > 0 ? model.points.rows() / samples + 1 : 1;
+  const Eigen::Index stride = sampling.points > 0 ? model.points.rows() / sampling.points + 1 : 1;
   std::vector<Judged> points(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
     const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
     const geometry::OrientedPoint p = geometry::posed_point(model, row, T);
-    points[i] = judge(p, sensed);
-    if (points[i].verdict == Verdict::kSupported)
-      judge_ends(model, outline, row, T, p, sensed, points[i]);
+    Judged& judged = points[i] = judge(p, sensed);
+    if (judged.verdict != Verdict::kSupported) return;
+    geometry::for_each_end(model, outline, row, [&](const Eigen::Vector3f& end) {
+      count_end(look_at_end({T * end, p.normal}, sensed), judged.ends, judged.overhang);
+    });
+    if (!sampling.gaps) return;
+    geometry::for_each_gap(model, outline, row, [&](const Eigen::Vector3f& gap, bool is_hole) {
+      const End end = look_at_end({T * gap, p.normal}, sensed);
+      count_end(end, judged.gaps, judged.filled);
+      if (is_hole) count_end(end, judged.holes, judged.filled_holes);
+    });
   });
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(stride);
@@ -153,8 +164,11 @@ FitShares shares_of(const Fit& fit, const FitTerms& terms) {
   const auto supported = static_cast<double>(fit.supported);
   const double looks = geometry::kOutlineDirections * supported;
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
+  const auto gaps = static_cast<double>(fit.gaps), filled = static_cast<double>(fit.filled);
+  const double few = terms.few_ends * looks;
   return {supported / (supported + against(fit, terms)), (ends - overhang) / looks,
-          1 - overhang / (ends + terms.few_ends * looks)};
+          1 - overhang / (ends + few), (gaps - filled) / looks,
+          static_cast<double>(fit.filled_holes) / (static_cast<double>(fit.holes) + few)};
 }
 
 }  // namespace posevote::poses

@@ -11,7 +11,8 @@
 //                 says nothing
 //
 // And where the model's surface ends beside a supported point, the scan's may end, too, or go on
-// (overhang). One nearest-neighbour search a point, and one for each end.
+// (overhang); so where it has a hole, a slot or teeth. One nearest-neighbour search a point, and one
+// for each end.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -30,20 +31,27 @@ namespace posevote::poses {
 struct Fit {
   std::size_t facing = 0;  ///< all of the below
   std::size_t supported = 0, contradicted = 0, mismatched = 0, unseen = 0, hidden = 0;
-  std::size_t ends = 0;        ///< places beside the supported where the model's surface ends
-  std::size_t overhang = 0;    ///< of those, where the scan's surface goes on
-  double inlier_fraction = 0;  ///< supported / facing
-  double rmse = 0;             ///< point to plane, over the supported [m]
-  double relief = 0;           ///< of the supported: 0 if all normals are parallel, 2/3 at most
-  double stands_for = 1;       ///< so many of the model's points stand for each that was judged
+  std::size_t ends = 0;              ///< places beside the supported where the model's surface ends
+  std::size_t overhang = 0;          ///< of those, where the scan's surface goes on
+  std::size_t gaps = 0, filled = 0;  ///< the same of gaps (Outline), where they are looked into
+  std::size_t holes = 0, filled_holes = 0;  ///< of those, of gaps behind which the model goes on
+  double inlier_fraction = 0;               ///< supported / facing
+  double rmse = 0;                          ///< point to plane, over the supported [m]
+  double relief = 0;      ///< of the supported: 0 if all normals are parallel, 2/3 at most
+  double stands_for = 1;  ///< so many of the model's points stand for each that was judged
 };
 
 /// `tolerance`: of support; a surface is clearly behind or before at clear_distance times that [m].
-/// `samples`: about as many points of the model are judged, evenly strewn; 0 judges all. `outline`
-/// is the model's.
+/// Which points of the model are judged, and how closely.
+struct Sampling {
+  Eigen::Index points = 0;  ///< about so many, evenly strewn; 0: all
+  bool gaps = false;        ///< whether gaps are looked into
+};
+
+/// `outline` is the model's.
 Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
                 const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
-                float tolerance, Eigen::Index samples = 0, const FitTerms& terms = {});
+                float tolerance, const Sampling& sampling = {}, const FitTerms& terms = {});
 
 /// What some points say of a pose.
 struct Evidence {
@@ -63,6 +71,8 @@ struct FitShares {
   double outline = 0;     ///< of all looks beside the supported, those that met the model's outline
                           ///< where the scan's is, less those where the scan goes on
   double continuity = 1;  ///< of the outline, where the scan ends, too
+  double gaps = 0;        ///< like outline, of gaps
+  double filled_holes = 0;  ///< of holes, those in which the scan has a surface
 };
 
 /// Of a fit that has supported points.

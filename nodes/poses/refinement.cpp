@@ -48,7 +48,7 @@ void refine(const Sought& sought, Candidate& candidate) {
              terms.full_points, terms.full_still, sought.terms.icp});
   candidate.is_refined = true;
   turn_by_color(sought, candidate);
-  judge(sought, candidate, {sought.terms.schedule.close_points});
+  judge(sought, candidate, {sought.terms.schedule.close_points, 1, true});
   believe(sought, candidate);
 }
 
@@ -65,7 +65,7 @@ void polish(const Sought& sought, Candidate& candidate) {
             return ends->pairs(pose, variance);
           });
   turn_by_color(sought, candidate);
-  judge(sought, candidate, {});
+  judge(sought, candidate, kAllPoints);
   believe(sought, candidate);
 }
 

@@ -52,9 +52,9 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
 /// fitted (posevote calibrate) on the 184 images of configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -27.33;
+  double offset = -25.51;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.395, 0.3105, 1.782, -4.309, 0.6677, 0.4797, 14.36, 2.303};
+  Clues weights{1.487, 0.3086, 1.065, -4.725, 0.6036, 0.2761, 14.28, 2.798, 1.888, -0.4239, 0.5222};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -23,7 +23,7 @@ namespace posevote::train {
 namespace {
 
 struct Params {
-  double reach = 9;
+  double reach = 9, gap_reach = 4;
   std::string borders = "unknown";
 };
 
@@ -42,26 +42,31 @@ PointMatrix border_of(const Mesh& mesh, float step) {
 }
 
 /// Takes out the ends on whose way there is a border: half way, as ends lie beyond that.
-void leave_out(const PointMatrix& border, const Cloud& cloud, Outline& outline) {
-  const float near = outline.reach / 2;
+void leave_out(const PointMatrix& border, const Cloud& cloud, float reach,
+               std::vector<std::uint8_t>& ends) {
+  const float near = reach / 2;
   const geometry::PointGrid grid(border, near);
-  for (std::size_t i = 0; i < outline.ends.size(); ++i)
-    for (int k = 0; k < geometry::kOutlineDirections && outline.ends[i] != 0; ++k) {
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (int k = 0; k < geometry::kOutlineDirections && ends[i] != 0; ++k) {
       bool is_border = false;
       grid.for_each_within(geometry::place_ahead(cloud, static_cast<Eigen::Index>(i), k, near),
                            near, [&](std::uint32_t, float) { is_border = true; });
-      if (is_border) outline.ends[i] = static_cast<std::uint8_t>(outline.ends[i] & ~(1U << k));
+      if (is_border) ends[i] = static_cast<std::uint8_t>(ends[i] & ~(1U << k));
     }
 }
 
 Outline find_outline(const Mesh& mesh, const Cloud& cloud, const Scale& scale,
                      const Params& params) {
   geometry::require_normals(cloud);
-  Outline outline =
-      geometry::outline_of(cloud, static_cast<float>(params.reach) * scale.resolution);
+  const auto length = [&](double in_resolutions) {
+    return static_cast<float>(in_resolutions) * scale.resolution;
+  };
+  Outline outline = geometry::outline_of(cloud, length(params.reach), length(params.gap_reach));
   if (params.borders == "end" || mesh.faces.rows() == 0) return outline;
-  const PointMatrix border = border_of(mesh, outline.reach / 4);
-  if (border.rows() > 0) leave_out(border, cloud, outline);
+  const PointMatrix border = border_of(mesh, outline.gap_reach / 4);
+  if (border.rows() == 0) return outline;
+  leave_out(border, cloud, outline.reach, outline.ends);
+  leave_out(border, cloud, outline.gap_reach, outline.gaps);
   return outline;
 }
 
@@ -73,6 +78,10 @@ const auto registered =
         .output("outline")
         .param("reach", &Params::reach, "x resolution",
                "The model goes on where a point of it lies within half of that, that far ahead.",
+               graph::greater_than(0))
+        .param("gap_reach", &Params::gap_reach, "x resolution",
+               "The same for holes, slots and teeth. Twice segment_objects.inlier_distance: what "
+               "ends there has nothing within it.",
                graph::greater_than(0))
         .param("borders", &Params::borders, "", "Whether the body ends where an open mesh does.",
                graph::one_of({"unknown", "end"}));

@@ -163,18 +163,19 @@ void build_nearest_index(benchmark::State& state) {
 
 void outline(benchmark::State& state) {
   const Cloud& cloud = setting().model.cloud;
-  for (auto _ : state) benchmark::DoNotOptimize(geometry::outline_of(cloud, 5 * kResolution));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(geometry::outline_of(cloud, 9 * kResolution, 4 * kResolution));
   count_items(state, cloud.points.rows());
 }
 
 void score_pose(benchmark::State& state) {
   const Setting& s = setting();
-  const Outline outline = geometry::outline_of(s.model.cloud, 5 * kResolution);
+  const Outline outline = geometry::outline_of(s.model.cloud, 9 * kResolution, 4 * kResolution);
   const geometry::RangeView view(s.scan.cloud, kResolution);
   const geometry::ScanSurface surface(s.scan.cloud, view.usable(), 2 * kResolution);
   for (auto _ : state)
     benchmark::DoNotOptimize(poses::measure_fit(s.model.cloud, outline, surface, view,
-                                                s.T_scene_model, 2 * kResolution, 0));
+                                                s.T_scene_model, 2 * kResolution));
   count_items(state, s.model.cloud.points.rows());
 }
 

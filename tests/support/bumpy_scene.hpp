@@ -104,7 +104,7 @@ inline std::shared_ptr<const Model> bumpy_model(int shape) {
   const Eigen::RowVector3f high = model->cloud.points.colwise().maxCoeff();
   model->center = (0.5F * (low + high)).transpose();
   model->diagonal = (high - low).norm();
-  model->outline = geometry::outline_of(model->cloud, 5 * kResolution);
+  model->outline = geometry::outline_of(model->cloud, 5 * kResolution, 4 * kResolution);
   return model;
 }
 

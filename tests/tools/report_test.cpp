@@ -125,6 +125,7 @@ Evaluation small_evaluation() {
   evaluation.names[1] = "chef & co";
   evaluation.all.resize(1);
   evaluation.all[0].counts = {3, 4, 3};
+  evaluation.all[0].verdicts = {{0.7, true, 5}, {0.2, false, 6}};
   evaluation.notes = {"image 7 was not judged"};
   InstanceResult instance;
   instance.met = {1};
@@ -227,6 +228,8 @@ TEST_CASE("an experiment: its table and plot, and each method's run and evaluati
   write_report(folder / "uwa", table.dump(), to_csv(rows), "<svg id=\"frame0\"></svg>");
   write_run(folder / "posevote");
   write_evaluation(small_evaluation(), folder / "posevote/evaluation");
+  CHECK(read_text(folder / "posevote/evaluation/verdicts.csv") ==
+        "rule,line,score,correct\npose,5,0.7,1\npose,6,0.2,0\n");
   folder.write("replica/test/000001/scene_gt.json", "{}");
   const std::string page = whole_page(folder);
   CHECK_THAT(page, Contains("<h2 id=\"part0\">uwa</h2>") &&

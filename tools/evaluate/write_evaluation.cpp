@@ -76,6 +76,16 @@ std::string instances_csv(const Evaluation& evaluation) {
   return text;
 }
 
+/// Which detections are right: `line` counts those of the results from 1.
+std::string verdicts_csv(const Evaluation& evaluation) {
+  std::string text = "rule,line,score,correct\n";
+  for (std::size_t r = 0; r < evaluation.rules.size(); ++r)
+    for (const Verdict& verdict : evaluation.all[r].verdicts)
+      text += evaluation.rules[r].name + "," + std::to_string(verdict.line) + "," +
+              number(verdict.score) + "," + (verdict.correct ? "1" : "0") + "\n";
+  return text;
+}
+
 std::string curve_csv(const Evaluation& evaluation) {
   std::string text = "object,rule,score,detections,correct,recall,precision,f1\n";
   for_each_result(evaluation, [&](const std::string& who, std::size_t r, const RuleResult& result) {
@@ -194,6 +204,7 @@ void write_evaluation(const Evaluation& evaluation, const fs::path& folder) {
   write_text(folder / "evaluation.json", to_json(evaluation).dump(2) + "\n");
   write_text(folder / "evaluation.csv", summary_csv(evaluation));
   write_text(folder / "instances.csv", instances_csv(evaluation));
+  write_text(folder / "verdicts.csv", verdicts_csv(evaluation));
   write_text(folder / "precision_recall.csv", curve_csv(evaluation));
   write_text(folder / "precision_recall.svg", curve_svg(evaluation));
   write_text(folder / "reliability.csv", reliability_csv(calibrations_of(evaluation)));

@@ -24,7 +24,10 @@ const char* meaning_of(const std::string& clue) {
       "few of the features on it voted for it",
       "other places have as many votes",
       "it lies off by more than the scan's other instances",
-      "few of its points are seen"};
+      "few of its points are seen",
+      "its holes, slots and edges are not met by the scan's",
+      "the scan has a surface where the object has holes",
+      "much of it is hidden"};
   const auto at = std::find(kClueNames.begin(), kClueNames.end(), clue);
   if (at == kClueNames.end()) return "its colours are not those that the camera saw";
   return kMeanings.at(static_cast<std::size_t>(at - kClueNames.begin()));

@@ -46,7 +46,7 @@ std::vector<char> rows_on(const Model& model, const Eigen::Isometry3d& T_scene_m
 }
 
 Seen look(const poses::Sought& sought, const Eigen::Isometry3d& T_scene_model) {
-  const poses::Fit fit = poses::measure(sought, T_scene_model, {});
+  const poses::Fit fit = poses::measure(sought, T_scene_model, poses::kAllPoints);
   Seen seen;
   seen.supported = share(fit.supported, fit.facing);
   seen.contradicted = share(fit.contradicted, fit.facing);

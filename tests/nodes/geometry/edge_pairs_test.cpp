@@ -43,7 +43,7 @@ struct Carton {
   Eigen::Isometry3d refined(const Eigen::Isometry3d& start, int ends) const {
     const geometry::RangeView view(scan, kStep);
     const geometry::ScanSurface surface(scan, view.usable(), 4 * kStep);
-    const Outline outline = geometry::outline_of(model, 9 * kStep);
+    const Outline outline = geometry::outline_of(model, 9 * kStep, 4 * kStep);
     const geometry::FaceEnds faces(model, outline, surface, view, kStep, {.ends = ends});
     return geometry::icp(
         model, surface, start, {40, 2 * kStep, 2 * kStep, 10000}, {},

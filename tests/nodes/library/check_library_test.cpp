@@ -45,6 +45,8 @@ TEST_CASE("a library is refused for every value that nodes could not rely on", "
       {"no turn about a point", [](Model& m) { m.symmetries.fixed_point.x() = INFINITY; }},
       {"the outline's reach is 0", [](Model& m) { m.outline.reach = 0; }},
       {"points in the outline", [](Model& m) { m.outline.ends.pop_back(); }},
+      {"the gaps' reach is 0", [](Model& m) { m.outline.gap_reach = 0; }},
+      {"points of gaps", [](Model& m) { m.outline.gaps.pop_back(); }},
       {"a near symmetry is no motion",
        [](Model& m) { m.near_symmetries.items[0].motion.linear() *= 2; }},
       {"a near symmetry names a point",

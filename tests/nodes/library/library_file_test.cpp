@@ -43,7 +43,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{12});
+  out.put(std::uint32_t{13});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -88,6 +88,8 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   CHECK(symmetries.turns[1].coeffs() == Eigen::Vector4f(1, 0, 0, 0));
   CHECK(symmetries.axes == std::vector<Eigen::Vector3f>{{0, 0, 1}});
   CHECK(loaded->models[2]->outline.ends == library.models[2]->outline.ends);
+  CHECK(loaded->models[2]->outline.gap_reach == library.models[2]->outline.gap_reach);
+  CHECK(loaded->models[2]->outline.gaps == library.models[2]->outline.gaps);
   REQUIRE(loaded->models[2]->near_symmetries.items.size() == 1);
   const NearSymmetry& symmetry = loaded->models[2]->near_symmetries.items[0];
   CHECK(symmetry.motion.matrix() == library.models[2]->near_symmetries.items[0].motion.matrix());
@@ -226,7 +228,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 12"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 13"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

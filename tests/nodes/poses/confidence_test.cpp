@@ -15,7 +15,7 @@ namespace {
 poses::Fit good_fit() {
   poses::Fit fit;
   fit.facing = fit.supported = 1000;
-  fit.ends = 400;
+  fit.ends = 400, fit.gaps = 500;
   fit.inlier_fraction = 1;
   fit.relief = 0.5;
   return fit;
@@ -38,6 +38,9 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   fit.overhang = 80;
   CHECK(believed(fit) < usual);
   fit = good_fit();
+  fit.holes = 400, fit.filled_holes = 100;
+  CHECK(believed(fit) < usual);
+  fit = good_fit();
   fit.ends = 0;
   CHECK(believed(fit) < usual);
   fit = good_fit();
@@ -50,7 +53,7 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
 
 TEST_CASE("a sample of the points makes the same clues", "[poses]") {
   poses::Fit sample = good_fit();
-  sample.facing = sample.supported = 100, sample.ends = 40;
+  sample.facing = sample.supported = 100, sample.ends = 40, sample.gaps = 50;
   sample.stands_for = 10;
   const poses::Backing backing{1, 0.5, 2};
   const Clues all = poses::clues_of(good_fit(), backing);
@@ -63,7 +66,7 @@ TEST_CASE("the true pose is believed, one beside it less, one elsewhere not", "[
   const auto confidence = [&](const Eigen::Isometry3d& T_scene_model) {
     poses::Candidate one = body.candidate(T_scene_model);
     one.is_refined = true;
-    poses::judge(body.sought(), one, {});
+    poses::judge(body.sought(), one, poses::kAllPoints);
     poses::believe(body.sought(), one);
     return one.confidence;
   };
