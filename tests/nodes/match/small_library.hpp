@@ -56,7 +56,8 @@ inline ModelLibrary make_library(const std::vector<std::vector<float>>& values,
                    {Eigen::Vector3f::UnitZ()}}));
     near_symmetries.slots.push_back(std::make_shared<const NearSymmetries>(NearSymmetries{
         {{Eigen::Isometry3d(Eigen::AngleAxisd(id, Eigen::Vector3d::UnitZ())), {0, 2}, {1}}}}));
-    outlines.slots.push_back(std::make_shared<const Outline>(Outline{0.01F, {1, 2, 4}, 0.005F, {1, 3, 4}}));
+    outlines.slots.push_back(
+        std::make_shared<const Outline>(Outline{0.01F, {1, 2, 4}, 0.005F, {1, 3, 4}}));
     octaves.slots.push_back(std::make_shared<const Scale>(Scale{0.002F}));
   }
   return run_node<ModelLibrary>("assemble_library", params, files, meshes, clouds, features,
