@@ -9,7 +9,6 @@
 #include "nodes/geometry/grid.hpp"
 
 namespace posevote::geometry {
-
 namespace {
 
 std::vector<std::uint8_t> ends_of(const Cloud& model, float reach) {

@@ -16,7 +16,7 @@ struct LocalFrame {
   Eigen::Vector3f u, v;    ///< u x v = normal
 
   LocalFrame(const Eigen::Vector3f& at, const Eigen::Vector3f& unit_normal)
-      : point(at), normal(unit_normal), u(normal.unitOrthogonal()), v(normal.cross(u)) {}
+      : LocalFrame(at, unit_normal, unit_normal.unitOrthogonal()) {}
 
   /// `unit_u` is perpendicular to the normal.
   LocalFrame(const Eigen::Vector3f& at, const Eigen::Vector3f& unit_normal,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "nodes/geometry/cloud_of.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/voxels.hpp"
 
@@ -35,17 +36,6 @@ void add(std::vector<Side>& sides, const Eigen::RowVector3f& point,
   ++found->count;
 }
 
-Cloud cloud_of(const std::vector<Eigen::RowVector3f>& points,
-               const std::vector<Eigen::RowVector3f>& normals) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Cloud cloud{PointMatrix(count, 3), PointMatrix(count, 3), {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    cloud.points.row(static_cast<Eigen::Index>(i)) = points[i];
-    cloud.normals.row(static_cast<Eigen::Index>(i)) = normals[i];
-  }
-  return cloud;
-}
-
 }  // namespace
 
 Cloud thin_surface(const Cloud& cloud, float edge) {
@@ -64,7 +54,7 @@ Cloud thin_surface(const Cloud& cloud, float edge) {
       normals.push_back(side.normals.normalized());
     }
   }
-  return cloud_of(points, normals);
+  return geometry::cloud_of(points, normals);
 }
 
 }  // namespace posevote::pairs

@@ -41,13 +41,13 @@ struct Fit {
   double stands_for = 1;  ///< so many of the model's points stand for each that was judged
 };
 
-/// `tolerance`: of support; a surface is clearly behind or before at clear_distance times that [m].
 /// Which points of the model are judged, and how closely.
 struct Sampling {
   Eigen::Index points = 0;  ///< about so many, evenly strewn; 0: all
-  bool gaps = false;        ///< whether gaps are looked into
+  bool gaps = false;        ///< whether its gaps are looked into, for a confidence
 };
 
+/// `tolerance`: of support; a surface is clearly behind or before at clear_distance times that [m].
 /// `outline` is the model's.
 Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
                 const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,

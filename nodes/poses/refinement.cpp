@@ -48,7 +48,7 @@ void refine(const Sought& sought, Candidate& candidate) {
              terms.full_points, terms.full_still, sought.terms.icp});
   candidate.is_refined = true;
   turn_by_color(sought, candidate);
-  judge(sought, candidate, {sought.terms.schedule.close_points, 1, true});
+  judge(sought, candidate, {{sought.terms.schedule.close_points, true}});
   believe(sought, candidate);
 }
 

@@ -19,7 +19,7 @@ void make_shortlist(const Sought& sought, Candidates& pool) {
   const auto places = static_cast<std::size_t>(sought.terms.schedule.shortlist);
   if (pool.size() <= places) return;
   judge_part(sought, pool, 0, pool.size(),
-             {sought.terms.schedule.glance_points, sought.terms.schedule.glance_reach});
+             {{sought.terms.schedule.glance_points}, sought.terms.schedule.glance_reach});
   pool.resize(places);
 }
 
@@ -27,7 +27,7 @@ void sketch(const Sought& sought, Candidates& pool, const Improve& improve) {
   graph::parallel_for(pool.size(), 1, [&](std::size_t i) {
     propose_as(sought, improve(pool[i].proposed), pool[i]);
   });
-  judge_part(sought, pool, 0, pool.size(), {sought.terms.schedule.sketch_points});
+  judge_part(sought, pool, 0, pool.size(), {{sought.terms.schedule.sketch_points}});
 }
 
 void bring_closer(const Sought& sought, Candidates& pool) {
@@ -35,7 +35,7 @@ void bring_closer(const Sought& sought, Candidates& pool) {
   const ScheduleTerms& terms = sought.terms.schedule;
   const std::size_t count = std::min(static_cast<std::size_t>(terms.promising), pool.size());
   graph::parallel_for(count, 1, [&](std::size_t i) { take_first_steps(sought, pool[i]); });
-  judge_part(sought, pool, 0, count, {terms.sketch_points});
+  judge_part(sought, pool, 0, count, {{terms.sketch_points}});
   sort_by_rank(pool.begin(), pool.end());
 }
 
@@ -44,7 +44,7 @@ void bring_finalists_forward(const Sought& sought, Candidates& pool) {
   const std::size_t batch = 2 * finalists;
   for (std::size_t done = 0; done < pool.size();) {
     const std::size_t end = std::min(done + batch, pool.size());
-    judge_part(sought, pool, done, end, {sought.terms.schedule.look_points});
+    judge_part(sought, pool, done, end, {{sought.terms.schedule.look_points}});
     done = end;
     if (done < pool.size() && pool[finalists - 1].rank >= pool[done].rank) break;
   }

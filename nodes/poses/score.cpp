@@ -30,11 +30,11 @@ std::size_t count_explained(const Sought& sought, const Eigen::Isometry3d& T_sce
 Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look) {
   const double tolerance = look.reach * static_cast<double>(sought.params.tolerance);
   return sought.memory->fits.get(
-      sought.scan, {T_scene_model, 2 * look.points + look.gaps, look.reach}, [&] {
+      sought.scan, {T_scene_model, 2 * look.sampling.points + look.sampling.gaps, look.reach}, [&] {
         return answer_at(sought, T_scene_model, tolerance,
                          measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
                                      sought.scan.view, T_scene_model, static_cast<float>(tolerance),
-                                     {look.points, look.gaps}, sought.terms.fit));
+                                     look.sampling, sought.terms.fit));
       });
 }
 

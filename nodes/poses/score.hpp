@@ -10,13 +10,12 @@ namespace posevote::poses {
 
 /// How closely a pose is looked at.
 struct Closeness {
-  Eigen::Index points = 0;  ///< of the model, about so many; 0: all
-  double reach = 1;         ///< how near them the scan must be [x inlier_distance]
-  bool gaps = false;        ///< whether the model's gaps are looked into, for a confidence
+  Sampling sampling;
+  double reach = 1;  ///< how near the points the scan must be [x inlier_distance]
 };
 
 /// As closely as can be.
-constexpr Closeness kAllPoints{0, 1, true};
+constexpr Closeness kAllPoints{{0, true}};
 
 /// How the scan, as it is now, agrees with a pose.
 Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look);

@@ -18,7 +18,7 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
     twins[i].is_refined = false;
     twins[i].near_symmetry = i;
     twins[i].T_scene_model = candidate.T_scene_model * near[i].motion;
-    judge(sought, twins[i], {sought.terms.schedule.look_points});
+    judge(sought, twins[i], {{sought.terms.schedule.look_points}});
   });
   sort_by_rank(twins.begin(), twins.end());
   return twins;

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "nodes/data/model.hpp"
+#include "nodes/geometry/cloud_of.hpp"
 
 namespace posevote::test {
 
@@ -24,16 +24,6 @@ inline void add_rectangle(std::vector<Eigen::RowVector3f>& points,
     }
 }
 
-inline Cloud cloud_of(const std::vector<Eigen::RowVector3f>& points,
-                      const std::vector<Eigen::RowVector3f>& normals) {
-  Cloud cloud{PointMatrix(std::ssize(points), 3), PointMatrix(std::ssize(points), 3), {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    cloud.points.row(static_cast<Eigen::Index>(i)) = points[i];
-    cloud.normals.row(static_cast<Eigen::Index>(i)) = normals[i];
-  }
-  return cloud;
-}
-
 /// A box of size `size` [m] around the origin.
 inline Cloud box_cloud(const Eigen::Vector3f& size, float spacing) {
   std::vector<Eigen::RowVector3f> points, normals;
@@ -45,7 +35,7 @@ inline Cloud box_cloud(const Eigen::Vector3f& size, float spacing) {
     add_rectangle(points, normals, out, u, v, spacing);
     add_rectangle(points, normals, -out, v, u, spacing);
   }
-  return cloud_of(points, normals);
+  return geometry::cloud_of(points, normals);
 }
 
 }  // namespace posevote::test

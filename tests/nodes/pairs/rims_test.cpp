@@ -85,7 +85,7 @@ TEST_CASE("however many ends a model has, its table stays small", "[pairs]") {
       add_rectangle(points, normals,
                     0.03F * Eigen::Vector3f(static_cast<float>(i), static_cast<float>(j), 0),
                     {0.02F, 0, 0}, {0, 0.02F, 0}, kSpacing);
-  model.cloud = cloud_of(points, normals);
+  model.cloud = geometry::cloud_of(points, normals);
   model.resolution = kSpacing;
   model.diagonal = 1.7F;
   const auto table = pairs::index_rims(model, 0.02F);

@@ -161,7 +161,7 @@ TEST_CASE("of twins that differ nowhere, colours choose", "[poses][color]") {
   // Beside the right pose, of which the first is the twin, by no less rank.
   Candidate wrong = setting.body.candidate(kBody.T_scene_model * motion.inverse());
   const Sought sought = setting.body.sought();
-  judge(sought, wrong, {1000});
+  judge(sought, wrong, {{1000}});
   turn_by_color(sought, wrong);
   wrong.rank = 2;
   const Candidate best = best_alike(sought, wrong, TakenPlaces(0));
@@ -180,7 +180,7 @@ TEST_CASE("colours add to the confidence by their weights", "[poses][color]") {
   Candidate candidate = setting.body.candidate(kBody.T_scene_model);
   const auto confidence = [&] {
     const Sought sought = setting.body.sought();
-    judge(sought, candidate, {1000});
+    judge(sought, candidate, {{1000}});
     turn_by_color(sought, candidate);
     believe(sought, candidate);
     return candidate.confidence;

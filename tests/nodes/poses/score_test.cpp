@@ -38,8 +38,8 @@ TEST_CASE("a glance reaches farther than a look, and each is remembered for itse
   Eigen::Isometry3d T = beside(0);
   T.pretranslate(Eigen::Vector3d(0, 0, off));  // along the rays
   for (int again = 0; again < 2; ++again) {
-    const Fit look = poses::measure(body.sought(), T, {300});
-    const Fit glance = poses::measure(body.sought(), T, {300, 2});
+    const Fit look = poses::measure(body.sought(), T, {{300}});
+    const Fit glance = poses::measure(body.sought(), T, {{300}, 2});
     CHECK(glance.facing == look.facing);
     CHECK(glance.supported > 2 * look.supported);
   }

@@ -69,7 +69,7 @@ struct Scene {
         normals.erase(normals.begin() + static_cast<std::ptrdiff_t>(i));
       }
     }
-    cloud = cloud_of(points, normals);
+    cloud = geometry::cloud_of(points, normals);
     features = features_of(cloud, 50);
   }
 };
