@@ -15,7 +15,8 @@
 // turns them.
 //
 // Colours come with the points of a file, or from the colour image beside a depth image. Such that
-// cannot be read, or do not fit, cost a warning.
+// cannot be read, or do not fit, are left out with a warning, as is an image that shows something
+// else than the depth image measured (edge_match.hpp).
 //
 // Points that are NaN or infinite are left out. Linear in the size of the file. Fails, saying
 // where, on files that are missing, damaged, cut off, or whose header claims more than they hold.
@@ -38,6 +39,7 @@
 #include "nodes/formats/units.hpp"
 #include "nodes/geometry/extent.hpp"
 #include "nodes/geometry/viewpoint.hpp"
+#include "nodes/load/edge_match.hpp"
 #include "nodes/load/read_depth.hpp"
 
 namespace posevote::load {
@@ -52,6 +54,7 @@ struct Params {
   double max_depth = 0;
   int max_points = 50'000'000;
   bool colors = true;
+  bool check_colors = true;
 };
 
 std::string check(const Params& params) {
@@ -169,6 +172,25 @@ Scan load_points(const SceneFile& file, const graph::FrameContext& context, cons
   return scan;
 }
 
+/// Those in the image or in the file beside it, but for such as cannot be right.
+void find_colors(const SceneFile& file, const graph::FrameContext& context, const Params& params,
+                 LoadedDepth& image) {
+  try {
+    if (!file.color.empty()) add_colors(file.color, image);
+    if (image.color && params.check_colors && !is_of_one_view(match_edges(image)))
+      throw std::runtime_error(
+          "does not show what the depth image measured: where the depth steps, its edges match no "
+          "better than when it is shifted. It seems to be of another moment, or not registered to "
+          "the depth image (load_scene.check_colors=false takes it nevertheless)");
+  } catch (const std::runtime_error& error) {
+    image.color = nullptr;
+    const std::filesystem::path folder = file.color.parent_path().filename();
+    const std::string name =
+        file.color.empty() ? "the colour image" : (folder / file.color.filename()).string() + ":";
+    context.warn("its colours are left out: " + name + " " + error.what());
+  }
+}
+
 Scan load_file(const SceneFile& file, const graph::FrameContext& context, const Params& params) {
   if (file.points ||
       (!file.depth && !formats::has_ending(file.path, formats::Wanted::kDepthImages)))
@@ -182,13 +204,8 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
   if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
   const DepthRange range{params.min_depth, params.max_depth,
                          static_cast<std::size_t>(params.max_points)};
-  if (file.depth && file.color.empty()) return points_of(*file.depth, camera, range);
   LoadedDepth image = file.depth ? *file.depth : read_depth(file.path, camera, range);
-  try {
-    if (params.colors && !file.color.empty()) add_colors(file.color, image);
-  } catch (const std::runtime_error& error) {
-    context.warn(std::string("its colours are left out: ") + error.what());
-  }
+  if (params.colors) find_colors(file, context, params, image);
   return points_of(image, camera, range);
 }
 
@@ -232,6 +249,9 @@ const auto registered =
         .param("colors", &Params::colors, "",
                "Whether colours are read, of the file or of the image beside it. Colour tells what "
                "shape cannot, of models that have colours, too.")
+        .param("check_colors", &Params::check_colors, "",
+               "Whether a colour image is left out that does not show what the depth image "
+               "measured: its edges do not lie where the depth steps.")
         .check(check);
 
 }  // namespace

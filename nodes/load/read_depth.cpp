@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "nodes/color/srgb.hpp"
 #include "nodes/formats/color_image.hpp"
@@ -87,21 +88,12 @@ LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
 }
 
 void add_colors(const std::filesystem::path& path, LoadedDepth& depth) {
-  const auto named = [&](const std::string& what) {
-    return std::runtime_error(path.parent_path().filename().string() + "/" +
-                              path.filename().string() + ": " + what);
-  };
-  try {
-    depth.color = std::make_shared<const ColorImage>(formats::read_color_image(path));
-  } catch (const std::runtime_error& error) {
-    throw named(error.what());
-  }
-  if (depth.color->width == depth.width && depth.color->height == depth.height) return;
-  const std::string sizes = "is of " + std::to_string(depth.color->width) + " x " +
-                            std::to_string(depth.color->height) + " pixels, the depth image of " +
-                            std::to_string(depth.width) + " x " + std::to_string(depth.height);
-  depth.color = nullptr;
-  throw named(sizes);
+  auto color = std::make_shared<const ColorImage>(formats::read_color_image(path));
+  if (color->width != depth.width || color->height != depth.height)
+    throw std::runtime_error("is of " + std::to_string(color->width) + " x " +
+                             std::to_string(color->height) + " pixels, the depth image of " +
+                             std::to_string(depth.width) + " x " + std::to_string(depth.height));
+  depth.color = std::move(color);
 }
 
 }  // namespace posevote::load

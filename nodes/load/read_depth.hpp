@@ -24,8 +24,8 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
 LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
                        const DepthRange& range);
 
-/// Adds the colours of the same pixels. Throws std::runtime_error that names the image and what is
-/// wrong with it; the depths then stay without.
+/// Adds the colours of the same pixels. The error does not repeat the path; the depths then stay
+/// without.
 void add_colors(const std::filesystem::path& path, LoadedDepth& depth);
 
 }  // namespace posevote::load

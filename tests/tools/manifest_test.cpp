@@ -28,6 +28,7 @@ Manifest some_run() {
   run.models = {{7, "cup", "models/cup.ply", "4567"}};
   run.scans = {{0, "one", {"scans/one.png", 2, 3, Camera{570.3, 570.1, 320, 240, 0.1}}},
                {1, "two\xff", {"scans/two\xff.ply", 0, 1, {}}}};
+  run.scans[0].file.color = "rgb/one.jpg";
   run.starts = {{{"posevote", "run"}, "/nowhere", "here", 11, 1.5, "1/2", 0}};
   return run;
 }
@@ -44,7 +45,9 @@ TEST_CASE("a manifest is read as it was written", "[manifest]") {
   REQUIRE(read.scans.size() == 2);
   CHECK(read.scans[0].file.camera->fx == 570.3);
   CHECK(read.scans[0].file.im_id == 3);
+  CHECK(read.scans[0].file.color == "rgb/one.jpg");
   CHECK_FALSE(read.scans[1].file.camera);
+  CHECK(read.scans[1].file.color.empty());
   CHECK(read.starts[0].shard == "1/2");
   // Written again it is the same, but for nothing: what is no UTF-8 was mended the first time.
   const std::string text = read_text(folder / "run.json");
@@ -103,11 +106,13 @@ TEST_CASE("scans are found from where the run was started", "[manifest]") {
   Manifest run = some_run();
   run.starts[0].folder = (folder / "there").string();
   folder.write("there/scans/one.png", "1");
+  folder.write("there/rgb/one.jpg", "1");
   write_manifest(folder.path(), run);
   const RunInputs inputs(folder.path());
   CHECK(inputs.why_not().empty());
   const SceneFile scene = inputs.scene(0, "scans/one.png", 0, 0);
   CHECK(scene.path == folder / "there/scans/one.png");
+  CHECK(scene.color == folder / "there/rgb/one.jpg");
   CHECK(scene.camera->fy == 570.1);
   CHECK(scene.scene_id == 2);
   // A frame that the manifest does not know, as one that came while the run went on.

@@ -15,25 +15,6 @@ namespace {
 
 using Cases = std::map<layouts::ImageKey, std::map<int, Case>>;
 
-/// Which instances count: by visibility, or the most visible of a target.
-void choose_counted(const layouts::GroundTruth& truth, Evaluation& evaluation) {
-  std::map<std::tuple<int, int, int>, std::vector<InstanceResult*>> groups;
-  for (InstanceResult& result : evaluation.instances) {
-    result.counted = result.visible.value_or(1) >= evaluation.options.least_visible;
-    groups[{result.scene_id, result.im_id, result.obj_id}].push_back(&result);
-  }
-  if (truth.targets.empty()) return;
-  for (auto& [key, group] : groups) {
-    std::stable_sort(group.begin(), group.end(),
-                     [](const InstanceResult* a, const InstanceResult* b) {
-                       return a->visible.value_or(1) > b->visible.value_or(1);
-                     });
-    const auto target = truth.targets.find(key);
-    const int count = target == truth.targets.end() ? 0 : target->second;
-    for (std::size_t i = 0; i < group.size(); ++i) group[i]->counted = static_cast<int>(i) < count;
-  }
-}
-
 Cases group_instances(const layouts::GroundTruth& truth, Evaluation& evaluation) {
   for (const layouts::TrueInstance& instance : truth.instances) {
     InstanceResult result;
@@ -43,7 +24,8 @@ Cases group_instances(const layouts::GroundTruth& truth, Evaluation& evaluation)
     result.met.resize(evaluation.rules.size());
     evaluation.instances.push_back(std::move(result));
   }
-  choose_counted(truth, evaluation);
+  const std::vector<bool> count = which_count(truth, evaluation.options.least_visible);
+  for (std::size_t i = 0; i < count.size(); ++i) evaluation.instances[i].counted = count[i];
   Cases cases;
   for (std::size_t i = 0; i < truth.instances.size(); ++i) {
     const layouts::TrueInstance& instance = truth.instances[i];
@@ -169,6 +151,26 @@ Coverage coverage_of(const RuleResult& result) {
     coverage.within += verdict.surprise <= k95;
   }
   return coverage;
+}
+
+std::vector<bool> which_count(const layouts::GroundTruth& truth, double least_visible) {
+  const auto visible = [&truth](std::size_t i) { return truth.instances[i].visible.value_or(1); };
+  std::vector<bool> count(truth.instances.size());
+  for (std::size_t i = 0; i < count.size(); ++i) count[i] = visible(i) >= least_visible;
+  if (truth.targets.empty()) return count;
+  std::map<std::tuple<int, int, int>, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const layouts::TrueInstance& one = truth.instances[i];
+    groups[{one.scene_id, one.im_id, one.obj_id}].push_back(i);
+  }
+  for (auto& [key, group] : groups) {
+    std::stable_sort(group.begin(), group.end(),
+                     [&visible](std::size_t a, std::size_t b) { return visible(a) > visible(b); });
+    const auto target = truth.targets.find(key);
+    const int wanted = target == truth.targets.end() ? 0 : target->second;
+    for (std::size_t i = 0; i < group.size(); ++i) count[group[i]] = static_cast<int>(i) < wanted;
+  }
+  return count;
 }
 
 Evaluation evaluate(const layouts::GroundTruth& truth, const std::vector<FoundInstance>& found,

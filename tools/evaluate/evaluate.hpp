@@ -84,6 +84,10 @@ struct WayRound {
 /// By obj_id, 0 being all; empty where the rules are not both asked for.
 std::map<int, WayRound> right_way_round(const Evaluation& evaluation);
 
+/// Of the truth's instances, which count: those visible enough, or where there is a list of targets
+/// the most visible ones that it asks for.
+std::vector<bool> which_count(const layouts::GroundTruth& truth, double least_visible);
+
 /// For each image, object and condition, detections take in descending order of their score the
 /// nearest right instance that is still free; the others are false positives, but one that finds an
 /// instance that is not counted is neither. Of BOP's average recalls, as many detections are judged

@@ -12,25 +12,26 @@
 namespace posevote::explain {
 namespace {
 
-/// What counts as missed: what is seen enough of, and in whose place none of its kind was found. One
+/// What counts as missed: what `evaluate` counts, and in whose place none of its kind was found. One
 /// that was found there, but turned otherwise, is a wrong detection, of which explain tells nothing.
 class Counted {
  public:
-  explicit Counted(const layouts::GroundTruth& truth) : truth_(truth) {}
+  explicit Counted(const layouts::GroundTruth& truth)
+      : truth_(truth), counts_(which_count(truth, EvaluateOptions().least_visible)) {}
 
   bool is_missed(const layouts::ImageKey& image, const Explained& one) {
-    return is_visible(image, one) && !is_found(one);
+    return is_asked_for(image, one) && !is_found(one);
   }
 
  private:
-  bool is_visible(const layouts::ImageKey& image, const Explained& one) const {
-    return std::none_of(truth_.instances.begin(), truth_.instances.end(),
-                        [&](const layouts::TrueInstance& true_one) {
-                          return layouts::ImageKey(true_one.scene_id, true_one.im_id) == image &&
-                                 true_one.obj_id == one.obj_id &&
-                                 true_one.visible.value_or(1) < EvaluateOptions().least_visible &&
-                                 true_one.T_scene_model.isApprox(one.truth->T_scene_model);
-                        });
+  bool is_asked_for(const layouts::ImageKey& image, const Explained& one) const {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const layouts::TrueInstance& truth = truth_.instances[i];
+      if (layouts::ImageKey(truth.scene_id, truth.im_id) == image && truth.obj_id == one.obj_id &&
+          truth.T_scene_model.isApprox(one.truth->T_scene_model))
+        return counts_[i];
+    }
+    return false;
   }
 
   bool is_found(const Explained& one) {
@@ -42,6 +43,7 @@ class Counted {
   }
 
   const layouts::GroundTruth& truth_;
+  const std::vector<bool> counts_;
   std::map<int, PoseMeter> meters_;
 };
 

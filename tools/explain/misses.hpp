@@ -26,7 +26,7 @@ struct Miss {
 bool is_confirmed(const Explained& one);
 
 /// The misses of a run in the order of its scans, up to the scan with which there are `most`.
-/// Instances of which less than a tenth is visible are none (BOP's rule).
+/// Instances that `evaluate` does not count are none.
 std::vector<Miss> misses_of(const Run& run, const layouts::GroundTruth& truth,
                             const Request& request, std::size_t most);
 

@@ -33,13 +33,15 @@ Json to_json(const SceneEntry& scan) {
           {"file", scan.file.path.string()},
           {"scene_id", scan.file.scene_id},
           {"im_id", scan.file.im_id},
-          {"camera", formats::camera_json(scan.file.camera)}};
+          {"camera", formats::camera_json(scan.file.camera)},
+          {"color", scan.file.color.string()}};
 }
 
 SceneEntry to_scan(const Json& json) {
-  return {json.at("frame").get<std::size_t>(), json.at("name").get<std::string>(),
-          SceneFile{json.at("file").get<std::string>(), json.at("scene_id").get<int>(),
-                    json.at("im_id").get<int>(), formats::camera_of(json.at("camera"))}};
+  SceneFile file{json.at("file").get<std::string>(), json.at("scene_id").get<int>(),
+                 json.at("im_id").get<int>(), formats::camera_of(json.at("camera"))};
+  file.color = json.value("color", "");  // which older runs did not keep
+  return {json.at("frame").get<std::size_t>(), json.at("name").get<std::string>(), file};
 }
 
 Json to_json(const RunStart& start) {

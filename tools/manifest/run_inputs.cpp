@@ -40,6 +40,7 @@ SceneFile RunInputs::scene(std::size_t frame, const fs::path& file, int scene_id
   SceneFile scene =
       is_known ? manifest_.scans[frame].file : SceneFile{file, scene_id, im_id, std::nullopt};
   scene.path = find(scene.path);
+  if (!scene.color.empty()) scene.color = find(scene.color);
   return scene;
 }
 

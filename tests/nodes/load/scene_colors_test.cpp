@@ -48,6 +48,32 @@ TEST_CASE("load_scene: a colour image that does not fit is left out", "[load][co
   }
 }
 
+TEST_CASE("load_scene: colours of another moment are left out and named", "[load][color]") {
+  constexpr int kWidth = 320, kHeight = 240;
+  std::vector<std::uint16_t> depths(std::size_t{kWidth} * kHeight, 2000);
+  std::string pixels(std::size_t{3} * kWidth * kHeight, '\x40');
+  for (int y = 60; y < 180; ++y)
+    for (int x = 40; x < 160; ++x) depths[static_cast<std::size_t>(y * kWidth + x)] = 1000;
+  for (int y = 60; y < 180; ++y)  // the same box, but moved
+    for (int x = 110; x < 230; ++x) pixels[static_cast<std::size_t>(3 * (y * kWidth + x))] = '\xff';
+  const TemporaryFolder folder;
+  SceneFile scene;
+  scene.path = folder.write("depth/000001.png", depth_png(kWidth, kHeight, depths));
+  scene.camera = Camera{300, 300, 160, 120, 1};
+  scene.color = folder.write("rgb/000001.png", png_bytes(kWidth, kHeight, 8, 3, pixels));
+  std::vector<std::string> warnings;
+  graph::FrameContext context;
+  context.on_warning = [&](const std::string& what) { warnings.push_back(what); };
+  const graph::NodeSpec& spec = *graph::find_node("load_scene");
+  const std::vector<graph::Value> inputs{graph::StreamTraits<SceneFile>::wrap(SceneFile(scene))};
+  const Scan scan =
+      graph::StreamTraits<Scan>::unwrap(spec.call(inputs, context, spec.make_params().get()).at(0));
+  CHECK(scan.colors.rows() == 0);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::Contains("rgb/000001.png: does not show what the depth image"));
+  CHECK(run_node<Scan>("load_scene", {{"check_colors", "false"}}, scene).colors.rows() > 0);
+}
+
 TEST_CASE("layouts: the colour image of a depth image", "[layouts][color]") {
   const TemporaryFolder folder;
   const auto depth = folder.write("depth/000001.png", "");
