@@ -34,10 +34,12 @@ Eigen::Isometry3d read_pose(const std::string& file, const std::string& unit) {
   }
 }
 
-layouts::GroundTruth ground_truth(const ExplainCommand& command, const explain::Run& run) {
+/// `targets`: as read_ground_truth takes it.
+layouts::GroundTruth ground_truth(const ExplainCommand& command, const explain::Run& run,
+                                  const std::string& targets) {
   const std::string split = run.inputs.manifest().split;
   return as_arguments([&] {
-    return layouts::read_ground_truth(command.dataset, split.empty() ? "test" : split, "none");
+    return layouts::read_ground_truth(command.dataset, split.empty() ? "test" : split, targets);
   });
 }
 
@@ -52,7 +54,8 @@ void read_truth(const ExplainCommand& command, const explain::Run& run,
   }
   if (command.dataset.empty()) return;
   const SceneFile file = explain::scene_file(run, frame);
-  request.truth = explain::poses_of(ground_truth(command, run), {file.scene_id, file.im_id});
+  request.truth =
+      explain::poses_of(ground_truth(command, run, "none"), {file.scene_id, file.im_id});
 }
 
 /// Of every scan, what was missed.
@@ -61,7 +64,7 @@ void explain_misses(const ExplainCommand& command, const explain::Run& run,
   explain::Request request;
   request.object = command.object;
   const std::vector<explain::Miss> misses =
-      explain::misses_of(run, ground_truth(command, run), request, command.most);
+      explain::misses_of(run, ground_truth(command, run, ""), request, command.most);
   if (answer.wanted())
     answer.give(explain::to_json(misses));
   else
