@@ -18,9 +18,10 @@ enum Clue : std::size_t {
   kLead,       ///< log of its support over that of the best proposal elsewhere
   kExactness,  ///< in [0, 1]: 1 if the residual is what other instances of the scan have
   kSupport,    ///< log of how many model points are supported
-  kGaps,    ///< log of how much of the model's gaps and outline the scan's meets, looked at closely
-  kFilled,  ///< share of its holes and slots in which the scan has a surface, times kSupport
-  kVisible,  ///< log of the share of what turns to the sensor that nothing hides
+  kGaps,       ///< log of how much of the model's gaps and outline the scan's meets, looked at
+               ///< closely
+  kFilled,     ///< share of its holes and slots in which the scan has a surface, times kSupport
+  kVisible,    ///< log of the share of what turns to the sensor that nothing hides
   kClueCount
 };
 

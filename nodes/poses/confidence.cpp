@@ -13,7 +13,7 @@ namespace {
 constexpr double kUsualVotesPerFeature = 0.3;
 
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
-constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 1, 8.3, -3.1, 0.1, -0.15};
+constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 1, 8.3, -3.2, 0, -0.2};
 
 /// Beyond these bounds more is neither better nor worse.
 double bounded_log(double value, double low, double high) {

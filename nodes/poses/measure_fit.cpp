@@ -12,12 +12,19 @@
 namespace posevote::poses {
 namespace {
 
+/// Of the tolerance, by which a surface may be lower or higher than a pose that fits exactly.
+constexpr float kSomeHeight = 0.1F;
+
 enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
 
 struct Judged {
   Verdict verdict = Verdict::kAway;
   double residual = 0;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+};
+
+/// What is beside a supported point.
+struct Beside {
   unsigned ends = 0, overhang = 0, gaps = 0, filled = 0, holes = 0, filled_holes = 0;
 };
 
@@ -43,8 +50,10 @@ Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
 /// Of a place where the model's surface is no more: what the scan's does there.
 enum class End { kEnds, kGoesOn, kHidden };
 
-End look_at_end(const geometry::OrientedPoint& place, const Sensed& sensed) {
-  if (sensed.scan.nearest_compatible(place, sensed.tolerance)) return End::kGoesOn;
+/// What is more than `height` [m] lower or higher is another surface: the ground under a plate.
+End look_at_end(const geometry::OrientedPoint& place, const Sensed& sensed, float height) {
+  if (const auto partner = sensed.scan.nearest_compatible(place, sensed.tolerance))
+    if (std::abs((partner->point - place.point).dot(place.normal)) <= height) return End::kGoesOn;
   const float measured = sensed.view.measured_range(place.point);
   const float range = (place.point - sensed.scan.viewpoint()).norm();
   return measured == 0 || measured < range - sensed.clear_distance ? End::kHidden : End::kEnds;
@@ -71,6 +80,16 @@ Fit count(const std::vector<Judged>& points) {
     fit.mismatched += point.verdict == Verdict::kMismatched;
     fit.unseen += point.verdict == Verdict::kUnseen;
     fit.hidden += point.verdict == Verdict::kHidden;
+  }
+  if (fit.supported == 0) return fit;
+  fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
+  fit.rmse = std::sqrt(squared / static_cast<double>(fit.supported));
+  fit.relief = geometry::relief_of(normals / static_cast<double>(fit.supported));
+  return fit;
+}
+
+void add(const std::vector<Beside>& points, Fit& fit) {
+  for (const Beside& point : points) {
     fit.ends += point.ends;
     fit.overhang += point.overhang;
     fit.gaps += point.gaps;
@@ -78,11 +97,6 @@ Fit count(const std::vector<Judged>& points) {
     fit.holes += point.holes;
     fit.filled_holes += point.filled_holes;
   }
-  if (fit.supported == 0) return fit;
-  fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
-  fit.rmse = std::sqrt(squared / static_cast<double>(fit.supported));
-  fit.relief = geometry::relief_of(normals / static_cast<double>(fit.supported));
-  return fit;
 }
 
 /// How many points speak against the pose.
@@ -100,23 +114,30 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Index stride = sampling.points > 0 ? model.points.rows() / sampling.points + 1 : 1;
   std::vector<Judged> points(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
+  const auto posed = [&](std::size_t i) {
+    return geometry::posed_point(model, static_cast<Eigen::Index>(i) * stride, T);
+  };
+  graph::parallel_for(points.size(), 512,
+                      [&](std::size_t i) { points[i] = judge(posed(i), sensed); });
+  Fit fit = count(points);
+  fit.stands_for = static_cast<double>(stride);
+  const float height = static_cast<float>(terms.same_height * fit.rmse) + kSomeHeight * tolerance;
+  std::vector<Beside> beside(points.size());
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
+    if (points[i].verdict != Verdict::kSupported) return;
     const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
-    const geometry::OrientedPoint p = geometry::posed_point(model, row, T);
-    Judged& judged = points[i] = judge(p, sensed);
-    if (judged.verdict != Verdict::kSupported) return;
+    const Eigen::Vector3f normal = posed(i).normal;
     geometry::for_each_end(model, outline, row, [&](const Eigen::Vector3f& end) {
-      count_end(look_at_end({T * end, p.normal}, sensed), judged.ends, judged.overhang);
+      count_end(look_at_end({T * end, normal}, sensed, height), beside[i].ends, beside[i].overhang);
     });
     if (!sampling.gaps) return;
     geometry::for_each_gap(model, outline, row, [&](const Eigen::Vector3f& gap, bool is_hole) {
-      const End end = look_at_end({T * gap, p.normal}, sensed);
-      count_end(end, judged.gaps, judged.filled);
-      if (is_hole) count_end(end, judged.holes, judged.filled_holes);
+      const End end = look_at_end({T * gap, normal}, sensed, height);
+      count_end(end, beside[i].gaps, beside[i].filled);
+      if (is_hole) count_end(end, beside[i].holes, beside[i].filled_holes);
     });
   });
-  Fit fit = count(points);
-  fit.stands_for = static_cast<double>(stride);
+  add(beside, fit);
   return fit;
 }
 

@@ -84,6 +84,11 @@ void add_fit(Node& node) {
        at_least(0));
   term("few_ends", &G::few_ends, "of all looks",
        "An outline shorter than this says less against a pose.", greater_than(0));
+  term("same_height", &G::same_height, "x residual",
+       "Beside a pose a surface goes on that is at most so much lower or higher than it, and a "
+       "tenth "
+       "of the tolerance; another is the ground under its edge.",
+       at_least(0));
 }
 
 void add_score(Node& node) {

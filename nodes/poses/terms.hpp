@@ -38,6 +38,7 @@ struct FitTerms {
   double convincing = 0.1;
   double outline_weight = 3;
   double few_ends = 0.02;
+  double same_height = 2.5;
 };
 
 /// What else counts in its grades (score.hpp).
@@ -52,9 +53,9 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
 /// fitted (posevote calibrate) on the 184 images of configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -25.51;
+  double offset = -28.56;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.487, 0.3086, 1.065, -4.725, 0.6036, 0.2761, 14.28, 2.798, 1.888, -0.4239, 0.5222};
+  Clues weights{1.322, 0.4214, 1.449, -5.574, 0.6512, 0.3902, 15.84, 3.14, 1.81, -0.8805, 0.2913};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -197,6 +197,19 @@ TEST_CASE("a plate with a hole is not at home on one without", "[poses]") {
   CHECK(filled(scan_with(solid)) > 0.1);
 }
 
+TEST_CASE("the ground close under a plate is not the plate", "[poses]") {
+  const Cloud plate = test::detail::wall(1.0F, 0.05F);
+  const auto overhang_on = [&plate](float below) {
+    Cloud scan = plate;
+    test::detail::append(scan, test::detail::wall(1.0F + below, 0.3F),
+                         Eigen::Isometry3d::Identity());
+    const poses::Fit fit = fit_of(plate, scan, Eigen::Isometry3d::Identity());
+    return static_cast<double>(fit.overhang) / static_cast<double>(fit.ends);
+  };
+  CHECK(overhang_on(0.7F * kTolerance) == 0);
+  CHECK(overhang_on(0.05F * kTolerance) > 0.9);
+}
+
 TEST_CASE("a sample of the model gives nearly the same fit", "[poses]") {
   const Cloud scan = scan_of({kBody}), model = bumpy_model(1)->cloud;
   const geometry::RangeView view(scan, kResolution);

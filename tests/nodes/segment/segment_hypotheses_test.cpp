@@ -100,9 +100,11 @@ TEST_CASE("a look-alike that lies off by more than the others is told by them", 
   }
   const Hypothesis left = beside(kLeft, 0, 30), right = beside(kRight, 0, 29);
   const auto found = [&](const std::vector<Hypothesis>& hypotheses, const char* max_residual) {
-    return segmented(
-        {bumpy_model(1), hypotheses}, scan,
-        {{"max_instances", "2"}, {"min_score", "0.65"}, {"max_residual", max_residual}});
+    return segmented({bumpy_model(1), hypotheses}, scan,
+                     {{"max_instances", "2"},
+                      {"min_score", "0.65"},
+                      {"min_confidence", "0"},
+                      {"max_residual", max_residual}});
   };
   const auto both = found({left, right}, "0");
   REQUIRE(both.size() == 2);
