@@ -143,13 +143,13 @@ double mean_rank(const std::vector<Pixel>& steps, const std::vector<float>& rank
 
 }  // namespace
 
-EdgeMatch match_edges(const LoadedDepth& image) {
+EdgeMatch match_edges(const LoadedDepth& image, const ColorImage& color) {
   EdgeMatch match;
   if (std::min(image.width, image.height) < kSmallest) return match;
   const std::vector<Pixel> steps = steps_of(image);
   match.steps = steps.size();
   if (steps.size() < kFewestSteps) return match;
-  const std::vector<float> ranks = ranks_of(*image.color);
+  const std::vector<float> ranks = ranks_of(color);
   if (*std::max_element(ranks.begin(), ranks.end()) <= 0) return match;
   const auto width = static_cast<double>(image.width);
   const auto at = [&](const Pixel& shift) { return mean_rank(steps, ranks, image, shift); };

@@ -17,13 +17,13 @@ struct EdgeMatch {
   int better = 0;        ///< far shifts that match as well or better
 };
 
-/// Of far shifts so many match as well by chance: none of some 190 images with colours of their own
+/// So many far shifts match as well by chance: none of some 190 images with colours of their own
 /// had one, of such with another's nine in ten have more.
 constexpr int kMostBetter = 2;
 
-/// `image` has colours. Linear in the pixels: some 10 ms of 640 x 480. An image that is too small, has
+/// `color` is of the same size. Linear in the pixels: some 10 ms of 640 x 480. An image that is too small, has
 /// hardly a step, or is of one colour matches: nothing can be told.
-EdgeMatch match_edges(const LoadedDepth& image);
+EdgeMatch match_edges(const LoadedDepth& image, const ColorImage& color);
 
 inline bool is_of_one_view(const EdgeMatch& match) { return match.better <= kMostBetter; }
 

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -172,22 +173,25 @@ Scan load_points(const SceneFile& file, const graph::FrameContext& context, cons
   return scan;
 }
 
-/// Those in the image or in the file beside it, but for such as cannot be right.
-void find_colors(const SceneFile& file, const graph::FrameContext& context, const Params& params,
-                 LoadedDepth& image) {
+/// Those of the image or of the file beside it, but for such as cannot be right; else null.
+std::shared_ptr<const ColorImage> find_colors(const SceneFile& file,
+                                              const graph::FrameContext& context,
+                                              const Params& params, const LoadedDepth& image) {
+  if (!params.colors) return nullptr;
   try {
-    if (!file.color.empty()) add_colors(file.color, image);
-    if (image.color && params.check_colors && !is_of_one_view(match_edges(image)))
+    auto color = file.color.empty() ? image.color : read_colors(file.color, image);
+    if (color && params.check_colors && !is_of_one_view(match_edges(image, *color)))
       throw std::runtime_error(
           "does not show what the depth image measured: where the depth steps, its edges match no "
           "better than when it is shifted. It seems to be of another moment, or not registered to "
           "the depth image (load_scene.check_colors=false takes it nevertheless)");
+    return color;
   } catch (const std::runtime_error& error) {
-    image.color = nullptr;
     const std::filesystem::path folder = file.color.parent_path().filename();
     const std::string name =
         file.color.empty() ? "the colour image" : (folder / file.color.filename()).string() + ":";
     context.warn("its colours are left out: " + name + " " + error.what());
+    return nullptr;
   }
 }
 
@@ -204,9 +208,10 @@ Scan load_file(const SceneFile& file, const graph::FrameContext& context, const 
   if (camera.depth_scale == 0) camera.depth_scale = params.depth_scale;
   const DepthRange range{params.min_depth, params.max_depth,
                          static_cast<std::size_t>(params.max_points)};
-  LoadedDepth image = file.depth ? *file.depth : read_depth(file.path, camera, range);
-  if (params.colors) find_colors(file, context, params, image);
-  return points_of(image, camera, range);
+  const auto image =
+      file.depth ? file.depth
+                 : std::make_shared<const LoadedDepth>(read_depth(file.path, camera, range));
+  return points_of(*image, find_colors(file, context, params, *image).get(), camera, range);
 }
 
 Scan load_scene(const SceneFile& file, const graph::FrameContext& context, const Params& params) {

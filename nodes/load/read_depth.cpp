@@ -5,7 +5,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "nodes/color/srgb.hpp"
 #include "nodes/formats/color_image.hpp"
@@ -46,11 +45,12 @@ Eigen::AlignedBox2f pixel_bounds(const Camera& camera, const LoadedDepth& image)
 
 }  // namespace
 
-Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange& range) {
+Scan points_of(const LoadedDepth& image, const ColorImage* color, const Camera& camera,
+               const DepthRange& range) {
   check_camera(camera);
   Scan scan;
   scan.points.resize(static_cast<Eigen::Index>(image.depths.size()), 3);
-  if (image.color) scan.colors.resize(scan.points.rows(), 3);
+  if (color) scan.colors.resize(scan.points.rows(), 3);
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < image.depths.size(); ++i) {
     const float z = image.depths[i];
@@ -59,10 +59,10 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
       continue;
     const std::size_t row = i / image.width, column = i % image.width;
     const auto u = static_cast<double>(column), v = static_cast<double>(row);
-    if (image.color)
+    if (color)
       for (std::size_t k = 0; k < 3; ++k)
         scan.colors(count, static_cast<Eigen::Index>(k)) =
-            color::linear_of(image.color->values[3 * i + k]);
+            color::linear_of(color->values[3 * i + k]);
     scan.points.row(count++) << static_cast<float>((u - camera.cx) * depth / camera.fx),
         static_cast<float>((v - camera.cy) * depth / camera.fy), z;
   }
@@ -72,7 +72,7 @@ Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange&
     throw std::runtime_error("none of the image's " + std::to_string(image.depths.size()) +
                              " pixels holds a depth within the limits (0 is no measurement)");
   scan.points.conservativeResize(count, 3);
-  if (image.color) scan.colors.conservativeResize(count, 3);
+  if (color) scan.colors.conservativeResize(count, 3);
   return scan;
 }
 
@@ -87,13 +87,14 @@ LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
   return {image.width, image.height, formats::depths_of(image, camera.depth_scale)};
 }
 
-void add_colors(const std::filesystem::path& path, LoadedDepth& depth) {
+std::shared_ptr<const ColorImage> read_colors(const std::filesystem::path& path,
+                                              const LoadedDepth& depth) {
   auto color = std::make_shared<const ColorImage>(formats::read_color_image(path));
   if (color->width != depth.width || color->height != depth.height)
     throw std::runtime_error("is of " + std::to_string(color->width) + " x " +
                              std::to_string(color->height) + " pixels, the depth image of " +
                              std::to_string(depth.width) + " x " + std::to_string(depth.height));
-  depth.color = std::move(color);
+  return color;
 }
 
 }  // namespace posevote::load

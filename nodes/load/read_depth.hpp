@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/data/files.hpp"
@@ -16,16 +17,17 @@ struct DepthRange {
 };
 
 /// The points that a depth image measured, row by row: x right, y down, z forward, the camera at the
-/// origin. Integer pixel coordinates are pixel centres. Throws std::runtime_error that says what is
-/// wrong.
-Scan points_of(const LoadedDepth& image, const Camera& camera, const DepthRange& range);
+/// origin. Integer pixel coordinates are pixel centres. `color`: of the same pixels, or null, whatever
+/// the image has. Throws std::runtime_error that says what is wrong.
+Scan points_of(const LoadedDepth& image, const ColorImage* color, const Camera& camera,
+               const DepthRange& range);
 
 /// The depths of a file, 0 being no measurement. The error does not repeat the path.
 LoadedDepth read_depth(const std::filesystem::path& path, const Camera& camera,
                        const DepthRange& range);
 
-/// Adds the colours of the same pixels. The error does not repeat the path; the depths then stay
-/// without.
-void add_colors(const std::filesystem::path& path, LoadedDepth& depth);
+/// The colours of the same pixels. The error does not repeat the path.
+std::shared_ptr<const ColorImage> read_colors(const std::filesystem::path& path,
+                                              const LoadedDepth& depth);
 
 }  // namespace posevote::load

@@ -86,8 +86,7 @@ void add_fit(Node& node) {
        "An outline shorter than this says less against a pose.", greater_than(0));
   term("same_height", &G::same_height, "x residual",
        "Beside a pose a surface goes on that is at most so much lower or higher than it, and a "
-       "tenth "
-       "of the tolerance; another is the ground under its edge.",
+       "tenth of the tolerance; another is the ground under its edge.",
        at_least(0));
 }
 

@@ -8,7 +8,6 @@
 
 using namespace posevote;
 using load::is_of_one_view;
-using load::match_edges;
 
 namespace {
 
@@ -48,6 +47,10 @@ LoadedDepth recolored(const LoadedDepth& image, Change change) {
   change(*color);
   other.color = color;
   return other;
+}
+
+load::EdgeMatch match_edges(const LoadedDepth& image) {
+  return load::match_edges(image, *image.color);
 }
 
 }  // namespace

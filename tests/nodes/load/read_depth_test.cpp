@@ -13,7 +13,7 @@ const Camera kCamera{500, 400, 1.5, 0.5, 0.1};
 
 Scan read_points(const std::filesystem::path& path, const Camera& camera,
                  const load::DepthRange& range) {
-  return load::points_of(load::read_depth(path, camera, range), camera, range);
+  return load::points_of(load::read_depth(path, camera, range), nullptr, camera, range);
 }
 
 std::string depth_error(const std::string& bytes, const Camera& camera = kCamera,
