@@ -36,37 +36,43 @@ std::optional<float> length_of(const ScanSurface& surface, const OrientedPoint& 
 
 }  // namespace
 
-FaceEnds::FaceEnds(const Cloud& model, const Outline& outline, const ScanSurface& scan,
-                   const RangeView& view, float resolution, const EdgeTerms& terms)
-    : model_(model),
-      scan_(scan),
-      view_(view),
-      resolution_(resolution),
-      step_(kStep * resolution),
-      reach_(static_cast<float>(terms.reach) * resolution),
-      spread_(terms.spread * static_cast<double>(resolution)) {
-  if (terms.ends == 0 || outline.ends.empty()) return;
-  std::vector<End> ahead;  // the place is where the model is no more
+std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, float resolution,
+                                    int most) {
+  std::vector<FaceEnd> ends;
+  if (most == 0 || outline.ends.empty()) return ends;
+  std::vector<FaceEnd> ahead;  // the place is where the model is no more
   for (Eigen::Index i = 0; i < model.points.rows(); ++i)
     for_each_end(model, outline, i, [&](const Eigen::Vector3f& place) {
       const Eigen::Vector3f from = model.points.row(i).transpose();
       ahead.push_back({i, from, (place - from) / outline.reach});
     });
-  const auto most = static_cast<std::size_t>(terms.ends);
-  const std::size_t stride = ahead.size() / (kTried * most) + 1;
+  const auto wanted = static_cast<std::size_t>(most);
+  const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
   const ScanSurface surface(model, false, resolution);
-  std::vector<End> all;
+  std::vector<FaceEnd> all;
   for (std::size_t k = 0; k < ahead.size(); k += stride) {
-    End end = ahead[k];
+    FaceEnd end = ahead[k];
     const OrientedPoint from{end.place, model.normals.row(end.row).transpose()};
     const auto length =
-        length_of(surface, from, end.direction, step_, kRim * resolution, resolution);
+        length_of(surface, from, end.direction, kStep * resolution, kRim * resolution, resolution);
     if (!length) continue;
     end.place += *length * end.direction;
     all.push_back(end);
   }
-  for (std::size_t k = 0; k < all.size(); k += all.size() / most + 1) ends_.push_back(all[k]);
+  for (std::size_t k = 0; k < all.size(); k += all.size() / wanted + 1) ends.push_back(all[k]);
+  return ends;
 }
+
+FaceEnds::FaceEnds(const Cloud& model, const std::vector<FaceEnd>& ends, const ScanSurface& scan,
+                   const RangeView& view, float resolution, const EdgeTerms& terms)
+    : model_(model),
+      ends_(ends),
+      scan_(scan),
+      view_(view),
+      resolution_(resolution),
+      step_(kStep * resolution),
+      reach_(static_cast<float>(terms.reach) * resolution),
+      spread_(terms.spread * static_cast<double>(resolution)) {}
 
 bool FaceEnds::is_free(const Eigen::Vector3f& beyond) const {
   if (view_.is_outside(beyond)) return false;
@@ -74,7 +80,7 @@ bool FaceEnds::is_free(const Eigen::Vector3f& beyond) const {
   return measured == 0 || measured > (beyond - scan_.viewpoint()).norm() + kLeastDrop * resolution_;
 }
 
-IcpPair FaceEnds::pair_of(const End& end, const Eigen::Isometry3f& T_scene_model) const {
+IcpPair FaceEnds::pair_of(const FaceEnd& end, const Eigen::Isometry3f& T_scene_model) const {
   IcpPair pair;
   const OrientedPoint at{
       T_scene_model * end.place,

@@ -18,16 +18,27 @@ namespace posevote::geometry {
 
 /// Constants of the method; poses/term_params.cpp says where they come from. Lengths x resolution.
 struct EdgeTerms {
-  int ends = 300;     ///< of a model that are looked at, at most; 0: none
-  double reach = 4;   ///< how far from the model's end the scan's may be
+  int ends = 1000;    ///< of a model that are looked at, at most; 0: none
+  double reach = 12;  ///< how far from the model's end the scan's may be
   double spread = 1;  ///< by which an end is off, one deviation
 };
 
-/// The ends of a model's faces. Keeps references to the model and the scan.
+/// Where a face of a model ends.
+struct FaceEnd {
+  Eigen::Index row = 0;                                 ///< of a point at its rim
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();      ///< of the end [m]
+  Eigen::Vector3f direction = Eigen::Vector3f::Zero();  ///< along the face; unit length
+};
+
+/// At most so many, evenly strewn. `resolution`: of the model and of the scan [m].
+std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, float resolution,
+                                    int most);
+
+/// The ends of a model's faces in a scan. Keeps references to all that it is given.
 class FaceEnds {
  public:
-  /// `resolution`: of the model and of the scan [m].
-  FaceEnds(const Cloud& model, const Outline& outline, const ScanSurface& scan,
+  /// `resolution`: that of `ends` [m].
+  FaceEnds(const Cloud& model, const std::vector<FaceEnd>& ends, const ScanSurface& scan,
            const RangeView& view, float resolution, const EdgeTerms& terms);
 
   /// The ends that face the sensor and that the scan has, too, before free space, each held along its
@@ -36,23 +47,18 @@ class FaceEnds {
   std::vector<IcpPair> pairs(const Eigen::Isometry3d& T_scene_model, double variance) const;
 
  private:
-  struct End {
-    Eigen::Index row;
-    Eigen::Vector3f place, direction;  ///< of the model; unit length, along the face
-  };
-
-  IcpPair pair_of(const End& end, const Eigen::Isometry3f& T_scene_model) const;
+  IcpPair pair_of(const FaceEnd& end, const Eigen::Isometry3f& T_scene_model) const;
   /// Whether what ends before that place is not cut off by something nearer, and does not go on as
   /// another face: near an edge between two faces normals are means of both, and each seems to end
   /// too early.
   bool is_free(const Eigen::Vector3f& beyond) const;
 
   const Cloud& model_;
+  const std::vector<FaceEnd>& ends_;
   const ScanSurface& scan_;
   const RangeView& view_;
   float resolution_, step_, reach_;
   double spread_;
-  std::vector<End> ends_;
 };
 
 }  // namespace posevote::geometry

@@ -18,7 +18,10 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
@@ -30,6 +33,7 @@ namespace {
 struct Params {
   double max_ratio = 1;
   double max_distance = 0;
+  int most = 0;
 };
 
 /// The matches of the scene's features at one scale, to be added to those of each model.
@@ -55,6 +59,26 @@ void match_octave(const FeatureSet& scene, const Octave& rows, const LibraryOcta
   }
 }
 
+/// Keeps those of the smallest ratios, in their order; of equal ratios the first.
+void keep_most_distinctive(Correspondences& votes, std::size_t most) {
+  if (most == 0 || votes.ratio.size() <= most) return;
+  std::vector<std::size_t> kept(votes.ratio.size());
+  std::iota(kept.begin(), kept.end(), 0);
+  const auto end = kept.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(kept.begin(), end, kept.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(votes.ratio[a], a) < std::pair(votes.ratio[b], b);
+  });
+  std::sort(kept.begin(), end);
+  const auto keep = [&](auto& values) {
+    for (std::size_t i = 0; i < most; ++i) values[i] = values[kept[i]];
+    values.resize(most);
+  };
+  keep(votes.scene_feature);
+  keep(votes.model_feature);
+  keep(votes.distance);
+  keep(votes.ratio);
+}
+
 PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLibrary& library,
                                           const Params& params) {
   if (library.octaves.empty()) throw std::runtime_error("the model library has no index");
@@ -64,8 +88,10 @@ PerObject<Correspondences> match_features(const FeatureSet& scene, const ModelLi
     for (const LibraryOctave& octave : library.octaves)
       if (same_scale(rows, octave.resolution)) match_octave(scene, rows, octave, params, matches);
   PerObject<Correspondences> correspondences;
-  for (Correspondences& votes : matches)
+  for (Correspondences& votes : matches) {
+    keep_most_distinctive(votes, static_cast<std::size_t>(params.most));
     correspondences.slots.push_back(std::make_shared<const Correspondences>(std::move(votes)));
+  }
   return correspondences;
 }
 
@@ -79,7 +105,12 @@ const auto registered =
                "Largest squared distance of the nearest over the second nearest; 1 keeps all.",
                graph::in_range(0, 1))
         .param("max_distance", &Params::max_distance, "descriptor distance",
-               "Largest distance of a match; 0 keeps all.", graph::at_least(0));
+               "Largest distance of a match; 0 keeps all.", graph::at_least(0))
+        .param("most", &Params::most, "",
+               "Matches of an object at most, those of the smallest ratios, because the density's "
+               "cost "
+               "grows faster than their number; 0 keeps all.",
+               graph::at_least(0));
 
 }  // namespace
 }  // namespace posevote::match

@@ -9,13 +9,14 @@ namespace {
 /// Most scan points lie far from the object and need no search.
 struct Ball {
   Eigen::Vector3f center = Eigen::Vector3f::Zero();
-  float radius = -1;  // holds nothing
+  float squared_radius = -1;  // holds nothing
 };
 
 Ball enclosing_ball(const PointMatrix& points, float margin) {
   if (points.rows() == 0) return {};
   const Eigen::RowVector3f low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
-  return {0.5F * (low + high).transpose(), 0.5F * (high - low).norm() + 1.01F * margin};
+  const float radius = 0.5F * (high - low).norm() + 1.01F * margin;
+  return {0.5F * (low + high).transpose(), radius * radius};
 }
 
 }  // namespace
@@ -25,11 +26,12 @@ std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& 
                                  const PointMatrix& normals, float distance) {
   const Eigen::Isometry3f T_model_scene = T_scene_model.inverse().cast<float>();
   const Ball ball = enclosing_ball(model.points, distance);
+  const Eigen::Vector3f center = T_scene_model.cast<float>() * ball.center;
   std::vector<char> explained(static_cast<std::size_t>(points.rows()), 0);
-  graph::parallel_for(explained.size(), 512, [&](std::size_t i) {
+  graph::parallel_for(explained.size(), 4096, [&](std::size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
+    if (!((points.row(row).transpose() - center).squaredNorm() <= ball.squared_radius)) return;
     const Eigen::Vector3f point = T_model_scene * Eigen::Vector3f(points.row(row).transpose());
-    if (!((point - ball.center).norm() <= ball.radius)) return;
     const Eigen::Vector3f normal =
         T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
     // Any model point of the right side will do: of a thin wall the wrong side may be the nearer

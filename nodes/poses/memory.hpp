@@ -10,9 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
+#include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/measure_fit.hpp"
 #include "nodes/poses/scan_state.hpp"
 
@@ -73,11 +76,12 @@ class Answers {
   std::unordered_map<Question, Known, QuestionHash> known_;
 };
 
-/// Of one object.
+/// Of one object, of which one pose at a time is polished.
 struct Memory {
   Answers<Fit> fits;
   Answers<Eigen::Isometry3d> refined;
   Answers<std::size_t> explained;
+  std::optional<std::vector<geometry::FaceEnd>> face_ends;  ///< of the model, once asked for
 };
 
 }  // namespace posevote::poses

@@ -69,11 +69,12 @@ void ObjectSearch::choose_best() {
     show("choose", {*best_});
     const bool is_promising = is_convincing(sought_, *best_);
     if (is_promising) polish(sought_, *best_);
-    best_->covariance = pose_covariance(sought_, best_->T_scene_model);
     best_->symmetries = symmetries_left(sought_, *best_);
     if (is_promising && is_convincing(sought_, *best_) &&
-        taken_.is_clear(sought_.model, best_->T_scene_model))
+        taken_.is_clear(sought_.model, best_->T_scene_model)) {
+      best_->covariance = pose_covariance(sought_, best_->T_scene_model);
       return;
+    }
   }
   if (best_ && taken_.is_clear(sought_.model, best_->T_scene_model)) refused_.push_back(*best_);
   best_.reset();

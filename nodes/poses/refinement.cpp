@@ -31,6 +31,14 @@ void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
   });
 }
 
+const std::vector<geometry::FaceEnd>& face_ends(const Sought& sought) {
+  auto& known = sought.memory->face_ends;
+  if (!known)
+    known = geometry::find_face_ends(sought.model.cloud, sought.model.outline,
+                                     sought.scan.resolution, sought.terms.edges.ends);
+  return *known;
+}
+
 }  // namespace
 
 void take_first_steps(const Sought& sought, Candidate& candidate) {
@@ -60,7 +68,7 @@ void polish(const Sought& sought, Candidate& candidate) {
            terms.polish_points, terms.polish_still, sought.terms.icp},
           [&](const auto& pose, double variance) {
             if (!ends)
-              ends.emplace(sought.model.cloud, sought.model.outline, sought.scan.surface,
+              ends.emplace(sought.model.cloud, face_ends(sought), sought.scan.surface,
                            sought.scan.view, sought.scan.resolution, sought.terms.edges);
             return ends->pairs(pose, variance);
           });

@@ -40,7 +40,7 @@ void add_schedule(Node& node) {
        in_range(1, 1000000));
   term("hopeless", &G::hopeless, "x needed",
        "Poses of lower rank than this share of the best, or of min_score, are not refined: ICP "
-       "seldom raises a quality fourfold. 0 refines all finalists, at their cost.",
+       "seldom more than doubles a quality. 0 refines all finalists, at their cost.",
        in_range(0, 1));
 }
 
@@ -226,7 +226,9 @@ void add_edges(Node& node) {
        "face then stays where its votes saw it. Time grows with it.",
        in_range(0, 100000));
   term("edge_reach", &G::reach, "x resolution",
-       "How far from the model's end the scan's may be: what votes and ICP leave.",
+       "How far from the model's end the scan's may be: what votes and ICP leave, which along a "
+       "flat "
+       "face is several points' spacings.",
        in_range(0.5, 100));
   term("edge_spread", &G::spread, "x resolution",
        "By which an end is off, one deviation: the less, the more ends count against planes.",

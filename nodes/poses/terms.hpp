@@ -19,7 +19,7 @@ struct ScheduleTerms {
   int shortlist = 160, promising = 40, finalists = 4;
   int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
   double glance_reach = 2;
-  double hopeless = 0.25;
+  double hopeless = 0.4;
 };
 
 /// Which poses are the same (pool.hpp).

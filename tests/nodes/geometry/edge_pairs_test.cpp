@@ -44,7 +44,8 @@ struct Carton {
     const geometry::RangeView view(scan, kStep);
     const geometry::ScanSurface surface(scan, view.usable(), 4 * kStep);
     const Outline outline = geometry::outline_of(model, 9 * kStep, 4 * kStep);
-    const geometry::FaceEnds faces(model, outline, surface, view, kStep, {.ends = ends});
+    const auto places = geometry::find_face_ends(model, outline, kStep, ends);
+    const geometry::FaceEnds faces(model, places, surface, view, kStep, {.ends = ends});
     return geometry::icp(
         model, surface, start, {40, 2 * kStep, 2 * kStep, 10000}, {},
         [&](const auto& pose, double variance) { return faces.pairs(pose, variance); });
@@ -66,6 +67,30 @@ TEST_CASE("a flat face slides under ICP, and its ends hold it", "[segment]") {
   const Eigen::Isometry3d held = carton.refined(start, 300);
   CHECK(off(held, carton.truth) < 0.0005);
   CHECK(Eigen::AngleAxisd(held.linear()).angle() < 0.01);
+}
+
+TEST_CASE("ends hold a face that lies ten spacings off, too", "[segment]") {
+  const Carton carton;
+  Eigen::Isometry3d start = carton.truth;
+  start.translation() += Eigen::Vector3d(0.016, -0.012, 0.001);
+  CHECK(off(carton.refined(start, 300), carton.truth) < 0.0005);
+}
+
+TEST_CASE("at most so many ends of a face are found, evenly strewn", "[segment]") {
+  const Carton carton;
+  const Outline outline = geometry::outline_of(carton.model, 9 * kStep, 4 * kStep);
+  const auto ends = geometry::find_face_ends(carton.model, outline, kStep, 80);
+  CHECK(ends.size() > 40);
+  CHECK(ends.size() <= 80);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const geometry::FaceEnd& end : ends) {
+    const Eigen::Vector3f beyond =
+        (end.place.cwiseAbs() - Eigen::Vector3f(0.06F, 0.04F, 0)).cwiseMax(0);
+    CHECK(beyond.norm() < 2 * kStep);  // at the rim
+    sum += end.direction;
+  }
+  CHECK(sum.norm() < 0.2F * static_cast<float>(ends.size()));  // on all sides
+  CHECK(geometry::find_face_ends(carton.model, outline, kStep, 0).empty());
 }
 
 TEST_CASE("what ends behind something nearer does not hold a face", "[segment]") {

@@ -64,6 +64,20 @@ TEST_CASE("poor matches can be left out", "[match]") {
   CHECK_THROWS(match({4}, library, {{"max_ratio", "1.5"}}));
 }
 
+TEST_CASE("of many matches of an object the most distinctive can be kept", "[match]") {
+  const ModelLibrary library = make_library({{0, 10}, {100}});
+  const std::vector<float> scene = {4, 1, 3, 9, 130, 2};  // ratios of the first: 4:6, 1:9, 3:7 ...
+  const auto all = match(scene, library, {{"most", "0"}});
+  CHECK(all[0].scene_feature == Rows{0, 1, 2, 3, 5});
+  const auto few = match(scene, library, {{"most", "3"}});
+  CHECK(few[0].scene_feature == Rows{1, 3, 5});
+  CHECK(few[0].model_feature == Rows{0, 1, 0});
+  CHECK(few[0].distance == std::vector<float>{1, 1, 2});
+  CHECK(few[0].ratio[1] == all[0].ratio[3]);
+  CHECK(few[1].scene_feature == Rows{4});
+  CHECK(match(scene, library, {{"most", "1"}})[0].scene_feature == Rows{1});  // 1:9 as 9:1
+}
+
 TEST_CASE("matching refuses descriptors of another length and a library without index", "[match]") {
   ModelLibrary library = make_library({{0, 10}});
   FeatureSet wide = features_at({1, 2});
