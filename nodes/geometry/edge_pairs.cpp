@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/outline.hpp"
 
 namespace posevote::geometry {
@@ -25,12 +26,34 @@ bool goes_on(const ScanSurface& surface, const OrientedPoint& at, float near) {
   return surface.nearest_compatible(at, near).has_value();
 }
 
-/// How far a surface goes on from `from`, in steps; nothing where it does up to `most`.
-std::optional<float> length_of(const ScanSurface& surface, const OrientedPoint& from,
-                               const Eigen::Vector3f& direction, float step, float most,
-                               float near) {
+/// A model, of which all sides are there. Beyond the edge of a face the nearest point is soon one of
+/// the face around the corner, where the scan, which seldom shows both, goes on for a spacing: any
+/// point of the face will do.
+class WholeSurface {
+ public:
+  WholeSurface(const Cloud& model, float resolution)
+      : normals_(model.normals), grid_(model.points, resolution) {}
+
+  bool goes_on(const OrientedPoint& at, float near) const {
+    const auto agree = static_cast<float>(SurfaceTerms{}.least_normal_cosine);
+    bool found = false;
+    grid_.for_each_within(at.point, near, [&](std::uint32_t i, float) {
+      found = found || normals_.row(static_cast<Eigen::Index>(i)).dot(at.normal) >= agree;
+    });
+    return found;
+  }
+
+ private:
+  const PointMatrix& normals_;
+  PointGrid grid_;
+};
+
+/// How far a face goes on from `from`, in steps; nothing where it does up to `most`.
+template <class GoesOn>
+std::optional<float> length_of(const OrientedPoint& from, const Eigen::Vector3f& direction,
+                               float step, float most, const GoesOn& goes_on) {
   for (float s = step; s <= most; s += step)
-    if (!goes_on(surface, {from.point + s * direction, from.normal}, near)) return s - step;
+    if (!goes_on(OrientedPoint{from.point + s * direction, from.normal})) return s - step;
   return std::nullopt;
 }
 
@@ -48,13 +71,14 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, 
     });
   const auto wanted = static_cast<std::size_t>(most);
   const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
-  const ScanSurface surface(model, false, resolution);
+  const WholeSurface surface(model, resolution);
   std::vector<FaceEnd> all;
   for (std::size_t k = 0; k < ahead.size(); k += stride) {
     FaceEnd end = ahead[k];
     const OrientedPoint from{end.place, model.normals.row(end.row).transpose()};
     const auto length =
-        length_of(surface, from, end.direction, kStep * resolution, kRim * resolution, resolution);
+        length_of(from, end.direction, kStep * resolution, kRim * resolution,
+                  [&](const OrientedPoint& at) { return surface.goes_on(at, resolution); });
     if (!length) continue;
     end.place += *length * end.direction;
     all.push_back(end);
@@ -89,7 +113,9 @@ IcpPair FaceEnds::pair_of(const FaceEnd& end, const Eigen::Isometry3f& T_scene_m
   const Eigen::Vector3f direction = T_scene_model.linear() * end.direction;
   float off = 0;  // of the scan's end from the model's
   if (goes_on(scan_, at, resolution_)) {
-    const auto length = length_of(scan_, at, direction, step_, reach_, resolution_);
+    const auto length = length_of(at, direction, step_, reach_, [&](const OrientedPoint& place) {
+      return goes_on(scan_, place, resolution_);
+    });
     if (!length) return pair;
     off = *length;
   } else {

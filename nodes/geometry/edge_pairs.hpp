@@ -2,8 +2,8 @@
 // Where a posed model's faces end and where the scan's do, as pairs for ICP. A flat face slides
 // along itself under point-to-plane ICP; its ends hold it (Drost, Ilic 2012 match the edges of range
 // images). An end is looked for in the surface alone, so that it needs no image: from a model
-// point at the rim of a face, along the face, in the model and in the scan by the same rule, so that
-// what the rule leaves out at both cancels.
+// point at the rim of a face, along the face, in the model and in the scan by like rules, so that
+// what they leave out at both cancels.
 #pragma once
 
 #include <Eigen/Geometry>
