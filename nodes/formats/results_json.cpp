@@ -98,7 +98,8 @@ const ordered_json& about() {
       {"covariance",
        "6 x 6, row by row, of the pose error xi = (translation [m], turn as a rotation vector "
        "[rad]), a twist in the model's frame, about its origin: T_true = T exp(xi); null of a pose "
-       "that was not refined. A direction that nothing holds has a large variance"},
+       "that was not refined, or was no instance. A direction that nothing holds has a large "
+       "variance"},
       {"symmetries", "motions of the model after which it looks the same: T S is as good as T"},
       {"confidence", "the probability that the detection is right"},
       {"seconds",

@@ -21,11 +21,6 @@ constexpr float kLeastVariance = 0.05F;  // x resolution^2: no scan's planes hol
 
 constexpr std::size_t kTried = 4;  // places, for each end that is wanted: few are at a rim
 
-/// Whether a surface is at a place, to somebody who comes along a face with that normal.
-bool goes_on(const ScanSurface& surface, const OrientedPoint& at, float near) {
-  return surface.nearest_compatible(at, near).has_value();
-}
-
 /// A model, of which all sides are there. Beyond the edge of a face the nearest point is soon one of
 /// the face around the corner, where the scan, which seldom shows both, goes on for a spacing: any
 /// point of the face will do.
@@ -34,6 +29,7 @@ class WholeSurface {
   WholeSurface(const Cloud& model, float resolution)
       : normals_(model.normals), grid_(model.points, resolution) {}
 
+  /// Whether it is near a place, to somebody who comes along a face with that normal.
   bool goes_on(const OrientedPoint& at, float near) const {
     const auto agree = static_cast<float>(SurfaceTerms{}.least_normal_cosine);
     bool found = false;
@@ -111,16 +107,17 @@ IcpPair FaceEnds::pair_of(const FaceEnd& end, const Eigen::Isometry3f& T_scene_m
       T_scene_model.linear() * Eigen::Vector3f(model_.normals.row(end.row).transpose())};
   if (!scan_.faces_sensor(at)) return pair;
   const Eigen::Vector3f direction = T_scene_model.linear() * end.direction;
+  const auto goes_on = [&](const OrientedPoint& place) {
+    return scan_.nearest_compatible(place, resolution_).has_value();
+  };
   float off = 0;  // of the scan's end from the model's
-  if (goes_on(scan_, at, resolution_)) {
-    const auto length = length_of(at, direction, step_, reach_, [&](const OrientedPoint& place) {
-      return goes_on(scan_, place, resolution_);
-    });
+  if (goes_on(at)) {
+    const auto length = length_of(at, direction, step_, reach_, goes_on);
     if (!length) return pair;
     off = *length;
   } else {
     do off -= step_;
-    while (off > -reach_ && !goes_on(scan_, {at.point + off * direction, at.normal}, resolution_));
+    while (off > -reach_ && !goes_on({at.point + off * direction, at.normal}));
   }
   const float inside = 1 - off * off / (reach_ * reach_);
   if (!(inside > 0) || !is_free(at.point + (off + kLookBeyond * resolution_) * direction))

@@ -108,8 +108,7 @@ const auto registered =
                "Largest distance of a match; 0 keeps all.", graph::at_least(0))
         .param("most", &Params::most, "",
                "Matches of an object at most, those of the smallest ratios, because the density's "
-               "cost "
-               "grows faster than their number; 0 keeps all.",
+               "cost grows faster than their number; 0 keeps all.",
                graph::at_least(0));
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "nodes/poses/refinement.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <vector>
 
 #include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/color_turns.hpp"
@@ -31,6 +31,7 @@ void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
   });
 }
 
+/// Found once, and only where ICP has to run.
 const std::vector<geometry::FaceEnd>& face_ends(const Sought& sought) {
   auto& known = sought.memory->face_ends;
   if (!known)
@@ -62,15 +63,13 @@ void refine(const Sought& sought, Candidate& candidate) {
 
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  std::optional<geometry::FaceEnds> ends;  // only where ICP has to run
   run_icp(sought, candidate, kPolish,
           {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
            terms.polish_points, terms.polish_still, sought.terms.icp},
           [&](const auto& pose, double variance) {
-            if (!ends)
-              ends.emplace(sought.model.cloud, face_ends(sought), sought.scan.surface,
-                           sought.scan.view, sought.scan.resolution, sought.terms.edges);
-            return ends->pairs(pose, variance);
+            return geometry::FaceEnds(sought.model.cloud, face_ends(sought), sought.scan.surface,
+                                      sought.scan.view, sought.scan.resolution, sought.terms.edges)
+                .pairs(pose, variance);
           });
   turn_by_color(sought, candidate);
   judge(sought, candidate, kAllPoints);

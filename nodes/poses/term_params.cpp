@@ -227,8 +227,7 @@ void add_edges(Node& node) {
        in_range(0, 100000));
   term("edge_reach", &G::reach, "x resolution",
        "How far from the model's end the scan's may be: what votes and ICP leave, which along a "
-       "flat "
-       "face is several points' spacings.",
+       "flat face is several points' spacings.",
        in_range(0.5, 100));
   term("edge_spread", &G::spread, "x resolution",
        "By which an end is off, one deviation: the less, the more ends count against planes.",
