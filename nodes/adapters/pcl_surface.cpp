@@ -14,13 +14,28 @@ namespace posevote::adapters {
 namespace {
 
 /// Estimations switch the sorting of a tree on; done once here, sharing it is only reading it.
-class SharedTree : public pcl::search::KdTree<pcl::PointXYZ> {
+template <class Point>
+class SharedTree : public pcl::search::KdTree<Point> {
  public:
-  SharedTree() : KdTree(true) {}
+  SharedTree() : pcl::search::KdTree<Point>(true) {}
   void setSortedResults(bool /*sorted*/) override {}
 };
 
 }  // namespace
+
+template <class Point>
+std::shared_ptr<pcl::search::Search<Point>> shared_tree(
+    const std::shared_ptr<pcl::PointCloud<Point>>& points) {
+  if (points->empty()) return nullptr;  // PCL builds no tree over nothing
+  auto tree = std::make_shared<SharedTree<Point>>();
+  tree->setInputCloud(points);
+  return tree;
+}
+
+template std::shared_ptr<pcl::search::Search<pcl::PointXYZ>> shared_tree(
+    const std::shared_ptr<pcl::PointCloud<pcl::PointXYZ>>& points);
+template std::shared_ptr<pcl::search::Search<pcl::PointXYZRGB>> shared_tree(
+    const std::shared_ptr<pcl::PointCloud<pcl::PointXYZRGB>>& points);
 
 PclSurface make_pcl_surface(const Cloud& cloud) {
   PclSurface surface;
@@ -45,9 +60,7 @@ PclSupport::PclSupport(const Cloud& cloud, const FeaturePoints& points, const Sc
                        double radius, int min_neighbours)
     : support_(cloud, points, scale, radius), surface_(make_pcl_surface(cloud)) {
   select(min_neighbours);
-  if (row_.empty()) return;  // PCL builds no tree over nothing
-  tree_ = std::make_shared<SharedTree>();
-  tree_->setInputCloud(surface_.points);
+  tree_ = shared_tree(surface_.points);
 }
 
 void PclSupport::select(int min_neighbours) {

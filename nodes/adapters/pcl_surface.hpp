@@ -36,6 +36,12 @@ struct PclSurface {
 
 PclSurface make_pcl_surface(const Cloud& cloud);
 
+/// A k-d tree over points (pcl::PointXYZ or PointXYZRGB), whose results are sorted by distance; null over
+/// none. Threads may share it.
+template <class Point>
+std::shared_ptr<pcl::search::Search<Point>> shared_tree(
+    const std::shared_ptr<pcl::PointCloud<Point>>& points);
+
 /// Indices into a surface, as PCL takes them.
 using PclRows = std::shared_ptr<const std::vector<int>>;
 
@@ -54,7 +60,7 @@ class PclSupport {
   float resolution() const { return support_.resolution(); }
   float radius() const { return support_.radius(); }
 
-  /// A k-d tree over the surface; results sorted by distance. Threads may share it.
+  /// The shared_tree of the surface's points.
   const std::shared_ptr<pcl::search::Search<pcl::PointXYZ>>& tree() const { return tree_; }
 
   /// Writes the descriptors of the surface's points `rows`, in their order, to the rows of the
@@ -89,14 +95,15 @@ class PclSupport {
   std::shared_ptr<pcl::PointCloud<pcl::ReferenceFrame>> frames_;  ///< by index in the surface
 };
 
-/// Runs one of PCL's estimations over `rows`; `values(point)` are a descriptor's numbers.
-template <class Point, class Estimation, class Values>
-void run_estimation(Estimation& estimation, const PclSupport& support, const PclRows& rows,
-                    const Values& values, DescriptorMatrix& out) {
-  estimation.setInputCloud(support.surface().points);
+/// Runs one of PCL's estimations over `rows` of `points`, of which there is a `tree`;
+/// `values(point)` are a descriptor's numbers.
+template <class Point, class Estimation, class Points, class Tree, class Values>
+void run_estimation(Estimation& estimation, const Points& points, const Tree& tree, float radius,
+                    const PclRows& rows, const Values& values, DescriptorMatrix& out) {
+  estimation.setInputCloud(points);
   estimation.setIndices(rows);
-  estimation.setSearchMethod(support.tree());
-  estimation.setRadiusSearch(static_cast<double>(support.radius()));
+  estimation.setSearchMethod(tree);
+  estimation.setRadiusSearch(static_cast<double>(radius));
   pcl::PointCloud<Point> result;
   estimation.compute(result);
   if (result.size() != rows->size())
@@ -105,6 +112,14 @@ void run_estimation(Estimation& estimation, const PclSupport& support, const Pcl
   for (std::size_t i = 0; i < result.size(); ++i)
     out.row(static_cast<Eigen::Index>(i)) =
         Eigen::Map<const Eigen::RowVectorXf>(values(result[i]), out.cols());
+}
+
+/// Of a support's surface.
+template <class Point, class Estimation, class Values>
+void run_estimation(Estimation& estimation, const PclSupport& support, const PclRows& rows,
+                    const Values& values, DescriptorMatrix& out) {
+  run_estimation<Point>(estimation, support.surface().points, support.tree(), support.radius(),
+                        rows, values, out);
 }
 
 }  // namespace posevote::adapters

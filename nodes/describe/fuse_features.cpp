@@ -3,7 +3,9 @@
 // feature of the scene, the one that tells it best: the descriptor whose match has the smallest
 // ratio of the squared distances to the nearest and the second nearest (Buch, Petersen, Krueger:
 // Local shape feature fusion, SpringerPlus 2016). Descriptors keep their own metric: their numbers
-// are never mixed (FeatureSet::blocks). More than two are fused by repeating the node.
+// are never mixed (FeatureSet::blocks). More than two are fused by repeating the node. With a
+// `weight` they are mixed: the two become one descriptor, as colours beside a shape, which neither
+// tells alone.
 //
 // Features are the same where point and normal are, to the bit: both inputs must describe the same
 // feature points. Kept are those that both describe, in the order of the first. Fails if there are
@@ -23,7 +25,9 @@
 namespace posevote::describe {
 namespace {
 
-struct Params {};
+struct Params {
+  double weight = 0;
+};
 
 using Place = std::array<float, 6>;
 
@@ -57,7 +61,7 @@ void append_blocks(std::vector<std::uint32_t>& blocks, const FeatureSet& feature
   blocks.insert(blocks.end(), features.blocks.begin(), features.blocks.end());
 }
 
-FeatureSet fuse_features(const FeatureSet& a, const FeatureSet& b, const Params&) {
+FeatureSet fuse_features(const FeatureSet& a, const FeatureSet& b, const Params& params) {
   const auto rows = common_rows(a, b);
   if (rows.empty())
     throw std::runtime_error("none of " + std::to_string(a.points.rows()) + " and " +
@@ -74,6 +78,12 @@ FeatureSet fuse_features(const FeatureSet& a, const FeatureSet& b, const Params&
     fused.normals.row(row) = a.normals.row(in_a);
     fused.descriptors.row(row) << a.descriptors.row(in_a), b.descriptors.row(in_b);
   }
+  if (params.weight > 0) {
+    if (!a.blocks.empty() || !b.blocks.empty())
+      throw std::runtime_error("descriptors that are fused already cannot become one");
+    fused.descriptors.rightCols(b.descriptors.cols()) *= static_cast<float>(params.weight);
+    return fused;
+  }
   append_blocks(fused.blocks, a);
   append_blocks(fused.blocks, b);
   return fused;
@@ -84,7 +94,11 @@ const auto registered =
                          "Two descriptors of the same points, for matching to choose from.")
         .input("features_a")
         .input("features_b")
-        .output("features");
+        .output("features")
+        .param("weight", &Params::weight, "",
+               "Of the second in one descriptor that both make up, as colours beside a shape; 0: "
+               "two, of which matching takes the one that tells a point best.",
+               graph::at_least(0));
 
 }  // namespace
 }  // namespace posevote::describe

@@ -2,6 +2,7 @@
 // A body to describe, and how well its descriptors find their own place again.
 #pragma once
 
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -15,6 +16,14 @@ inline FeaturePoints every(std::uint32_t step, const Cloud& cloud) {
   FeaturePoints points;
   for (std::uint32_t i = 0; i < cloud.points.rows(); i += step) points.indices.push_back(i);
   return points;
+}
+
+/// With colours that change over some ten grid widths, in each direction otherwise.
+inline Cloud painted(Cloud cloud) {
+  cloud.colors = (cloud.points / (3 * kResolution)).unaryExpr([](float at) {
+    return 0.5F + 0.4F * std::sin(at);
+  });
+  return cloud;
 }
 
 inline Cloud moved(Cloud cloud, const Eigen::Affine3f& by) {
@@ -33,11 +42,11 @@ inline FeatureSet described(const std::string& node, const Cloud& cloud, std::ui
 /// lies within three grid widths.
 inline double self_match_rate(const std::string& node, float noise,
                               const std::map<std::string, std::string>& params = {}) {
-  Cloud copy = bumpy_cloud(1, kResolution, 0.7);
+  Cloud copy = painted(bumpy_cloud(1, kResolution, 0.7));
   std::mt19937 random(5);
   for (float& value : copy.points.reshaped())
     value += noise * (static_cast<float>(random()) / 2147483648.0F - 1);
-  const FeatureSet body = described(node, bumpy_cloud(1, kResolution), 2, params);
+  const FeatureSet body = described(node, painted(bumpy_cloud(1, kResolution)), 2, params);
   const FeatureSet found = described(node, copy, 5, params);
   const auto nearest =
       descriptors::DescriptorIndex({&body.descriptors}, {}).nearest_two(found.descriptors);

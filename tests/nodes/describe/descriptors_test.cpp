@@ -31,6 +31,8 @@ const std::vector<Expected>& all_descriptors() {
       {"describe_fpfh", 33, {{"radius", "6"}}, 0.02F, 0.3, 0.05F},
       {"describe_ecsad", 30, {{"radius", "8"}}, 0.2F, 0.4, 0.05F},
       {"describe_shot", 352, {{"radius", "8"}}, 0.05F, 0.7, 0.05F},
+      {"describe_color_pairs", 60, {{"radius", "8"}}, 1e-3F, 0.8, 0.05F},
+      {"describe_cshot", 1344, {{"radius", "8"}}, 0.05F, 0.7, 0.05F},
       {"describe_rops", 135, {{"radius", "8"}}, 0.05F, 0.3, 0.05F},
       {"describe_usc", 1960, {{"radius", "8"}}, 0.2F, 0.4, 0.05F}};
   return all;
@@ -47,6 +49,7 @@ FeatureSet described_backwards(const Expected& expected, const Cloud& body, std:
   Cloud reversed = body;
   reversed.points = body.points.colwise().reverse();
   reversed.normals = body.normals.colwise().reverse();
+  reversed.colors = body.colors.colwise().reverse();
   FeaturePoints points = every(step, body);
   for (std::uint32_t& i : points.indices)
     i = static_cast<std::uint32_t>(body.points.rows()) - 1 - i;
@@ -66,9 +69,9 @@ TEST_CASE("descriptors are of their length, and all different places differ", "[
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
     const FeatureSet one =
-        described(expected.node, bumpy_cloud(2, kResolution), 23, expected.params);
+        described(expected.node, painted(bumpy_cloud(2, kResolution)), 23, expected.params);
     const FeatureSet other =
-        described(expected.node, bumpy_cloud(3, kResolution), 23, expected.params);
+        described(expected.node, painted(bumpy_cloud(3, kResolution)), 23, expected.params);
     CHECK(one.descriptors.cols() == expected.length);
     CHECK(one.descriptors.allFinite());
     std::vector<float> nearest;
@@ -82,7 +85,7 @@ TEST_CASE("descriptors are of their length, and all different places differ", "[
 }
 
 TEST_CASE("descriptors do not change where a body is moved", "[describe]") {
-  const Cloud body = bumpy_cloud(2, kResolution);
+  const Cloud body = painted(bumpy_cloud(2, kResolution));
   const Cloud turned = moved(body, some_motion());
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
@@ -94,7 +97,7 @@ TEST_CASE("descriptors do not change where a body is moved", "[describe]") {
 }
 
 TEST_CASE("descriptors do not depend on the order of points", "[describe]") {
-  const Cloud body = bumpy_cloud(3, kResolution);
+  const Cloud body = painted(bumpy_cloud(3, kResolution));
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
     const float change = typical_difference(described(expected.node, body, 11, expected.params),
@@ -120,7 +123,7 @@ TEST_CASE("the longest descriptor finds a differently sampled body again", "[des
 }
 
 TEST_CASE("descriptors are the same bytes at any number of threads", "[describe]") {
-  const Cloud body = bumpy_cloud(2, kResolution);
+  const Cloud body = painted(bumpy_cloud(2, kResolution));
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
     const std::uint32_t step = expected.node == "describe_rops" ? 5 : 20;  // several chunks
@@ -142,7 +145,7 @@ TEST_CASE("what cannot be described is left out", "[describe]") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
-    Cloud body = bumpy_cloud(1, kResolution);
+    Cloud body = painted(bumpy_cloud(1, kResolution));
     body.normals.row(0).setZero();
     body.normals.row(6).setConstant(nan);
     body.points.row(12).setConstant(nan);
@@ -181,7 +184,7 @@ TEST_CASE("planes, lines and heaps of equal points are described or refused", "[
 }
 
 TEST_CASE("what makes no sense is refused by all descriptors", "[describe]") {
-  const Cloud body = bumpy_cloud(1, 2 * kResolution);
+  const Cloud body = painted(bumpy_cloud(1, 2 * kResolution));
   for (const Expected& expected : all_descriptors()) {
     INFO(expected.node);
     const auto describe = [&](const Cloud& cloud, const FeaturePoints& points, float resolution) {

@@ -61,6 +61,19 @@ TEST_CASE("features of other points cannot be fused", "[match]") {
                     Catch::Contains("none of 2 and 1 features are the same"));
 }
 
+TEST_CASE("with a weight two descriptors become one", "[match]") {
+  const FeatureSet a = features_of_places({1, 2}, 10, 2), b = features_of_places({1, 2}, 100, 1);
+  const auto join = [](const FeatureSet& first, const FeatureSet& second) {
+    return run_node<FeatureSet>("fuse_features", {{"weight", "0.5"}}, first, second);
+  };
+  const FeatureSet joined = join(a, b);
+  DescriptorMatrix expected(2, 3);
+  expected << 10, 10, 50, 20, 20, 100;
+  CHECK(joined.descriptors == expected);
+  CHECK(joined.blocks.empty());
+  CHECK_THROWS_WITH(join(fuse(a, b), b), Catch::Contains("fused already"));
+}
+
 TEST_CASE("the descriptor that tells a point best matches it", "[match]") {
   // By the first descriptor the scene's feature is as near to 0 as to 2; by the second it is 20.
   FeatureSet model = features_at({0, 2});
