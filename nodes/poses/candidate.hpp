@@ -5,12 +5,12 @@
 //            rival counts
 //   quality  in [0, 1]: how well the scan agrees with it: fit (measure_fit.hpp), times exactness
 //            once it is refined (usual_residual.hpp)
-//   rank     its quality, a little lower for less support than others: who goes first among the
-//            poses of one object
+//   rank     its quality, a little lower for less support than others and for what clues say
+//            against it: who goes first among the poses of one object
 //   score    in [0, 1]: quality x consensus, the share of the features on it that had voted for it;
 //            what min_score asks for
 //   confidence  in [0, 1]: how probable it is that it is right, from all clues (confidence.hpp);
-//            what min_confidence asks for, and who goes first among the poses of all objects
+//            what min_confidence asks for, and who goes first among refined poses
 #pragma once
 
 #include <optional>
@@ -50,5 +50,6 @@ using Candidates = std::vector<Candidate>;
 
 /// The best first, equals in their order.
 void sort_by_rank(Candidates::iterator begin, Candidates::iterator end);
+void sort_by_confidence(Candidates::iterator begin, Candidates::iterator end);
 
 }  // namespace posevote::poses

@@ -15,6 +15,11 @@ constexpr double kUsualVotesPerFeature = 0.3;
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
 constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 1, 8.3, -3.2, 0, -0.2};
 
+/// Its support over that of the best proposal elsewhere.
+double lead_of(const Candidate& candidate) {
+  return candidate.proposed.support / std::max(candidate.elsewhere, kSomeSupport);
+}
+
 /// Beyond these bounds more is neither better nor worse.
 double bounded_log(double value, double low, double high) {
   return std::log(std::clamp(value, low, high));
@@ -50,6 +55,15 @@ double log_odds_of(const Clues& clues, const ConfidenceTerms& terms) {
   return log_odds;
 }
 
+double first_log_odds(const Candidate& candidate, const Terms& terms) {
+  if (candidate.fit.supported == 0) return 0;
+  const Clues clues = clues_of(candidate.fit, {1, std::nullopt, lead_of(candidate)}, terms.fit);
+  double log_odds = 0;
+  for (const Clue clue : {kAgreement, kRelief, kOutline, kOverhang, kLead, kSupport, kVisible})
+    log_odds += terms.confidence.weights[clue] * (clues[clue] - kUsualClues[clue]);
+  return log_odds;
+}
+
 // A mixture: at times colours are those of another moment, light or print, and say nothing.
 double log_odds_of(const ColorClues& clues, const ColorTerms& terms) {
   const double told =
@@ -75,8 +89,7 @@ double confidence_of(const Candidate& candidate, const Terms& terms) {
 void believe(const Sought& sought, Candidate& candidate) {
   candidate.confidence = 0;
   if (!(candidate.quality > 0)) return;
-  Backing backing{exactness(sought, candidate), std::nullopt,
-                  candidate.proposed.support / std::max(candidate.elsewhere, kSomeSupport)};
+  Backing backing{exactness(sought, candidate), std::nullopt, lead_of(candidate)};
   if (sought.votes_per_correspondence > 0) {
     backing.votes_per_feature = votes_per_feature(sought, candidate);
     candidate.consensus = consensus(*backing.votes_per_feature, sought.terms.score);

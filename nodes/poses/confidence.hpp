@@ -31,6 +31,10 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms = {
 /// offset + weights . clues
 double log_odds_of(const Clues& clues, const ConfidenceTerms& terms);
 
+/// What a candidate's log odds are above those of usual right detections, by the clues that are known
+/// of every pose: those that only refined ones have, or that take a count, are taken as usual.
+double first_log_odds(const Candidate& candidate, const Terms& terms);
+
 /// The same of colours, which is added where there are any.
 double log_odds_of(const ColorClues& clues, const ColorTerms& terms);
 

@@ -87,7 +87,7 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
   while (!pool_.empty()) {
     const Candidates::iterator end = refine_best(sought_, pool_);
     if (end == pool_.begin()) break;
-    sort_by_rank(pool_.begin(), end);
+    sort_by_confidence(pool_.begin(), end);
     if (sought_.watch) show("refine", {pool_.begin(), end});
     if (auto best = best_of(pool_.begin(), end)) return best;
     pool_.erase(pool_.begin(), end);
@@ -95,7 +95,7 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
   return std::nullopt;
 }
 
-/// Of refined poses, the first that reaches the threshold by its quality, itself or the twin that
+/// Of refined poses, the first that reaches the threshold, itself or the twin that
 /// is better than it; if none does, what is best of the first, because a twin may reach it.
 std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
                                                Candidates::const_iterator end) const {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "nodes/poses/confidence.hpp"
+
 namespace posevote::poses {
 
 namespace {
@@ -41,8 +43,11 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
 void grade(const Sought& sought, Candidate& candidate) {
   candidate.quality = fit_quality(candidate.fit, sought.terms.fit);
   if (candidate.is_refined) candidate.quality *= exactness(sought, candidate);
-  candidate.rank = candidate.quality * std::pow(candidate.proposed.support / sought.most_support,
-                                                sought.terms.score.trust_in_support);
+  const ScoreTerms& terms = sought.terms.score;
+  candidate.rank =
+      candidate.quality *
+      std::pow(candidate.proposed.support / sought.most_support, terms.trust_in_support) *
+      std::exp(terms.trust_in_clues * first_log_odds(candidate, sought.terms));
 }
 
 void judge(const Sought& sought, Candidate& candidate, const Closeness& look) {

@@ -103,6 +103,11 @@ void add_score(Node& node) {
        "Of relative support in the rank: at 0.1 a pose of a hundredth of the best one's needs a "
        "quality 1.6 times as high. True instances differ much in how much is seen of them.",
        in_range(0, 10));
+  term(
+      "trust_in_clues", &G::trust_in_clues, "exponent",
+      "Of the odds that the confidence's clues give, in the rank. Quality alone puts a wall before "
+      "a bracket that is half hidden. At 0.25 clues that hold for refined poses decide too early.",
+      in_range(0, 10));
   term("trust_in_consensus", &G::trust_in_consensus, "exponent",
        "Of the consensus in the score. Measured on simulated and real RGB-D scans: support per "
        "feature on the posed model is 0.2 to 1.2 for true poses, seldom below 0.05, and 0.02 to "

@@ -46,6 +46,7 @@ struct ScoreTerms {
   double sampled_residual = 0.15;
   double least_exactness = 0.6;
   double trust_in_support = 0.1;
+  double trust_in_clues = 0.1;
   double trust_in_consensus = 0.15;
   double usual_votes = 60;
 };

@@ -47,6 +47,7 @@ TEST_CASE("a glance reaches farther than a look, and each is remembered for itse
 
 TEST_CASE("less support lowers the rank, not the quality", "[poses]") {
   SoughtBody body({kBody});
+  body.params.terms.score.trust_in_clues = 0;
   poses::Candidate much = body.candidate(beside(0), 100), little = body.candidate(beside(0), 1);
   poses::Sought sought = body.sought();
   sought.most_support = 100;
@@ -57,6 +58,24 @@ TEST_CASE("less support lowers the rank, not the quality", "[poses]") {
   body.params.terms.score.trust_in_support = 0;
   poses::grade(sought, little);
   CHECK(little.rank == little.quality);
+}
+
+TEST_CASE("what the clues say moves the rank, by as much as they are trusted", "[poses]") {
+  SoughtBody body({kBody});
+  const poses::Sought sought = body.sought();
+  poses::Candidate sure = body.candidate(beside(0)), doubtful = sure;
+  poses::judge(sought, sure, {});
+  doubtful.fit = sure.fit;
+  doubtful.fit.overhang = doubtful.fit.ends / 2;  // as a piece of a wall has it
+  poses::grade(sought, doubtful);
+  const double odds =
+      poses::first_log_odds(sure, sought.terms) - poses::first_log_odds(doubtful, sought.terms);
+  CHECK(odds > 2);
+  CHECK(sure.rank / doubtful.rank ==
+        Approx(sure.quality / doubtful.quality * std::exp(0.1 * odds)).epsilon(1e-6));
+  doubtful.fit.supported = 0;
+  poses::grade(sought, doubtful);
+  CHECK(doubtful.rank == 0);
 }
 
 TEST_CASE("consensus is the share of the features there that had voted", "[poses]") {
