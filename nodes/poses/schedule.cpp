@@ -6,6 +6,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/poses/pool.hpp"
 #include "nodes/poses/refinement.hpp"
+#include "nodes/poses/score.hpp"
 
 namespace posevote::poses {
 
@@ -18,8 +19,12 @@ void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::
 void make_shortlist(const Sought& sought, Candidates& pool) {
   const auto places = static_cast<std::size_t>(sought.terms.schedule.shortlist);
   if (pool.size() <= places) return;
-  judge_part(sought, pool, 0, pool.size(),
-             {{sought.terms.schedule.glance_points}, sought.terms.schedule.glance_reach});
+  const Closeness glance{{sought.terms.schedule.glance_points}, sought.terms.schedule.glance_reach};
+  graph::parallel_for(pool.size(), 1, [&](std::size_t i) {
+    judge(sought, pool[i], glance);
+    pool[i].rank = rank_at_a_glance(sought, pool[i]);
+  });
+  sort_by_rank(pool.begin(), pool.end());
   pool.resize(places);
 }
 

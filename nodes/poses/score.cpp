@@ -40,14 +40,17 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
       });
 }
 
+double rank_at_a_glance(const Sought& sought, const Candidate& candidate) {
+  return candidate.quality * std::pow(candidate.proposed.support / sought.most_support,
+                                      sought.terms.score.trust_in_support);
+}
+
 void grade(const Sought& sought, Candidate& candidate) {
   candidate.quality = fit_quality(candidate.fit, sought.terms.fit);
   if (candidate.is_refined) candidate.quality *= exactness(sought, candidate);
-  const ScoreTerms& terms = sought.terms.score;
   candidate.rank =
-      candidate.quality *
-      std::pow(candidate.proposed.support / sought.most_support, terms.trust_in_support) *
-      std::exp(terms.trust_in_clues * first_log_odds(candidate, sought.terms));
+      rank_at_a_glance(sought, candidate) *
+      std::exp(sought.terms.score.trust_in_clues * first_log_odds(candidate, sought.terms));
 }
 
 void judge(const Sought& sought, Candidate& candidate, const Closeness& look) {
