@@ -17,11 +17,12 @@
 // neighbours. Time: O(feature points x neighbours).
 //
 //   describe_color_pairs: {in: [cloud, points, scale], out: features, radius: 12}
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "nodes/color/srgb.hpp"
+#include "nodes/descriptors/distance_histogram.hpp"
 #include "nodes/descriptors/feature_set.hpp"
 #include "nodes/descriptors/register_descriptor.hpp"
 
@@ -42,43 +43,26 @@ constexpr int kRows = 4;
 constexpr int kColumns = 5;
 constexpr int kLength = kChannels * kRows * kColumns;
 
-/// Where a position on an axis of `bins` falls: into two neighbouring ones, or the last.
-struct Share {
-  std::size_t low, high;
-  float of_high;
-
-  /// `position` of a bin's centre is its number.
-  Share(float position, int bins) {
-    const float within = std::clamp(position, 0.0F, static_cast<float>(bins - 1));
-    low = static_cast<std::size_t>(within);
-    high = std::min(low + 1, static_cast<std::size_t>(bins - 1));
-    of_high = within - static_cast<float>(low);
-  }
-};
-
 using Histograms = std::array<std::array<std::array<float, kColumns>, kRows>, kChannels>;
 
 /// `off`: differences in bins.
-void add(const Eigen::RowVector3f& off, const Share& row, Histograms& histograms) {
+void add(const Eigen::RowVector3f& off, const descriptors::Shares& far, Histograms& histograms) {
   for (int channel = 0; channel < kChannels; ++channel) {
-    const Share column(off[channel] + (kColumns - 1) / 2.0F, kColumns);
+    const descriptors::Shares change(off[channel] + kColumns / 2.0F, kColumns);
     auto& histogram = histograms[static_cast<std::size_t>(channel)];
-    const auto add_to = [&](std::size_t r, float weight) {
-      histogram[r][column.low] += weight * (1 - column.of_high);
-      histogram[r][column.high] += weight * column.of_high;
-    };
-    add_to(row.low, 1 - row.of_high);
-    add_to(row.high, row.of_high);
+    for (int i = 0; i < 2; ++i)
+      for (int k = 0; k < 2; ++k)
+        histogram[static_cast<std::size_t>(far.bin[i])][static_cast<std::size_t>(change.bin[k])] +=
+            far.weight[i] * change.weight[k];
   }
 }
 
 void write(const Histograms& histograms, float* descriptor) {
   for (const auto& histogram : histograms)
-    for (std::size_t row = 0; row < kRows; ++row) {
-      float sum = 0;
-      for (const float bin : histogram[row]) sum += bin;
-      const float weight = (static_cast<float>(row) + 0.5F) / static_cast<float>(kRows);
-      for (const float bin : histogram[row]) *descriptor++ = std::sqrt(bin * (weight / (sum + 1)));
+    for (int row = 0; row < kRows; ++row) {
+      const auto& bins = histogram[static_cast<std::size_t>(row)];
+      const float sum = std::accumulate(bins.begin(), bins.end(), 0.0F);
+      descriptor = descriptors::write_row(bins, sum, row, kRows, descriptor);
     }
 }
 
@@ -105,8 +89,8 @@ class ColorSupport {
     int count = 0;
     for_each_facing(point, support_.radius(), [&](std::uint32_t i, float squared) {
       if (i == point) return;
-      const Share row(kRows * std::sqrt(squared) / support_.radius() - 0.5F, kRows);
-      add((lab_.row(i) - own).cwiseProduct(per_bin_), row, histograms);
+      const descriptors::Shares far(kRows * std::sqrt(squared) / support_.radius(), kRows);
+      add((lab_.row(i) - own).cwiseProduct(per_bin_), far, histograms);
       ++count;
     });
     write(histograms, descriptor);

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "nodes/descriptors/distance_histogram.hpp"
 #include "nodes/descriptors/feature_set.hpp"
 #include "nodes/descriptors/register_descriptor.hpp"
 
@@ -31,30 +32,12 @@ struct Params {
 
 constexpr int kDistances = 8, kAngles = 16;
 
-/// The two bins that share a value, `position` counted in bins; at the ends they are the same.
-struct Shares {
-  int bin[2];
-  float weight[2];
-
-  Shares(float position, int bins) {
-    const float lower = std::floor(position - 0.5F);
-    const float upper_weight = position - 0.5F - lower;
-    for (int i = 0; i < 2; ++i) bin[i] = std::clamp(static_cast<int>(lower) + i, 0, bins - 1);
-    weight[0] = 1 - upper_weight;
-    weight[1] = upper_weight;
-  }
-};
-
 using Histogram = Eigen::Array<float, kDistances, kAngles, Eigen::RowMajor>;
 
 void write(const Histogram& histogram, float* descriptor) {
-  for (int row = 0; row < kDistances; ++row) {
-    const float share = (static_cast<float>(row) + 0.5F) / static_cast<float>(kDistances);
-    // One neighbour more than there is keeps a row that one hardly touches from counting in full.
-    const float scale = share / (histogram.row(row).sum() + 1);
-    for (int column = 0; column < kAngles; ++column)
-      *descriptor++ = std::sqrt(histogram(row, column) * scale);
-  }
+  for (int row = 0; row < kDistances; ++row)
+    descriptor = descriptors::write_row({&histogram(row, 0), std::size_t{kAngles}},
+                                        histogram.row(row).sum(), row, kDistances, descriptor);
 }
 
 /// Writes the descriptor of one point and returns how many neighbours it is made of.
@@ -68,8 +51,9 @@ int describe(const descriptors::Support& support, std::uint32_t point, float* de
     if (!(squared > 0) || !descriptors::is_oriented(cloud, neighbour)) return;
     const Eigen::Vector3f other = cloud.normals.row(neighbour).normalized();
     const float angle = std::acos(std::clamp(normal.dot(other), -1.0F, 1.0F));
-    const Shares far(std::sqrt(squared) * distance_bins, kDistances);
-    const Shares turned(angle * static_cast<float>(kAngles / std::numbers::pi), kAngles);
+    const descriptors::Shares far(std::sqrt(squared) * distance_bins, kDistances);
+    const descriptors::Shares turned(angle * static_cast<float>(kAngles / std::numbers::pi),
+                                     kAngles);
     for (int i = 0; i < 2; ++i)
       for (int k = 0; k < 2; ++k)
         histogram(far.bin[i], turned.bin[k]) += far.weight[i] * turned.weight[k];

@@ -22,9 +22,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "nodes/describe/point_pair_sums.hpp"
+#include "nodes/descriptors/distance_histogram.hpp"
 #include "nodes/descriptors/feature_set.hpp"
 #include "nodes/descriptors/register_descriptor.hpp"
 
@@ -94,13 +96,10 @@ Histograms fold(const PointPairSums& pairs) {
 
 void write(const Histograms& histograms, float* descriptor) {
   for (const auto& histogram : histograms)
-    for (std::size_t row = 0; row < kRows; ++row) {
-      float sum = 0;
-      for (const float bin : histogram[row]) sum += bin;
-      // An annulus of a plane holds points in proportion to its radius: so much its row may weigh.
-      const float weight = (static_cast<float>(row) + 0.5F) / static_cast<float>(kRows);
-      // One pair more than there is keeps a row that a pair hardly touches from counting in full.
-      for (const float bin : histogram[row]) *descriptor++ = std::sqrt(bin * (weight / (sum + 1)));
+    for (int row = 0; row < kRows; ++row) {
+      const auto& bins = histogram[static_cast<std::size_t>(row)];
+      const float sum = std::accumulate(bins.begin(), bins.end(), 0.0F);
+      descriptor = descriptors::write_row(bins, sum, row, kRows, descriptor);
     }
 }
 

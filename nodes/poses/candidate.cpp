@@ -10,10 +10,4 @@ void sort_by_rank(Candidates::iterator begin, Candidates::iterator end) {
                    [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
 }
 
-void sort_by_confidence(Candidates::iterator begin, Candidates::iterator end) {
-  std::stable_sort(begin, end, [](const Candidate& a, const Candidate& b) {
-    return a.confidence > b.confidence;
-  });
-}
-
 }  // namespace posevote::poses

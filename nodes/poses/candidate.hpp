@@ -50,6 +50,5 @@ using Candidates = std::vector<Candidate>;
 
 /// The best first, equals in their order.
 void sort_by_rank(Candidates::iterator begin, Candidates::iterator end);
-void sort_by_confidence(Candidates::iterator begin, Candidates::iterator end);
 
 }  // namespace posevote::poses

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/object_search.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "nodes/poses/color_turns.hpp"
@@ -87,7 +89,7 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
   while (!pool_.empty()) {
     const Candidates::iterator end = refine_best(sought_, pool_);
     if (end == pool_.begin()) break;
-    sort_by_confidence(pool_.begin(), end);
+    std::ranges::stable_sort(pool_.begin(), end, std::greater(), &Candidate::confidence);
     if (sought_.watch) show("refine", {pool_.begin(), end});
     if (auto best = best_of(pool_.begin(), end)) return best;
     pool_.erase(pool_.begin(), end);

@@ -21,8 +21,8 @@ void make_shortlist(const Sought& sought, Candidates& pool) {
   if (pool.size() <= places) return;
   const Closeness glance{{sought.terms.schedule.glance_points}, sought.terms.schedule.glance_reach};
   graph::parallel_for(pool.size(), 1, [&](std::size_t i) {
-    judge(sought, pool[i], glance);
-    pool[i].rank = rank_at_a_glance(sought, pool[i]);
+    pool[i].fit = measure(sought, pool[i].T_scene_model, glance);
+    grade_at_a_glance(sought, pool[i]);
   });
   sort_by_rank(pool.begin(), pool.end());
   pool.resize(places);

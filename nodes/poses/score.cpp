@@ -40,16 +40,16 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
       });
 }
 
-double rank_at_a_glance(const Sought& sought, const Candidate& candidate) {
-  return candidate.quality * std::pow(candidate.proposed.support / sought.most_support,
-                                      sought.terms.score.trust_in_support);
+void grade_at_a_glance(const Sought& sought, Candidate& candidate) {
+  candidate.quality = fit_quality(candidate.fit, sought.terms.fit);
+  if (candidate.is_refined) candidate.quality *= exactness(sought, candidate);
+  candidate.rank = candidate.quality * std::pow(candidate.proposed.support / sought.most_support,
+                                                sought.terms.score.trust_in_support);
 }
 
 void grade(const Sought& sought, Candidate& candidate) {
-  candidate.quality = fit_quality(candidate.fit, sought.terms.fit);
-  if (candidate.is_refined) candidate.quality *= exactness(sought, candidate);
-  candidate.rank =
-      rank_at_a_glance(sought, candidate) *
+  grade_at_a_glance(sought, candidate);
+  candidate.rank *=
       std::exp(sought.terms.score.trust_in_clues * first_log_odds(candidate, sought.terms));
 }
 

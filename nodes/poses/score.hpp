@@ -20,11 +20,11 @@ constexpr Closeness kAllPoints{{0, true}};
 /// How the scan, as it is now, agrees with a pose.
 Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look);
 
-/// The rank without what the clues say: of few points, looked at from afar, they say too little.
-double rank_at_a_glance(const Sought& sought, const Candidate& candidate);
-
 /// Sets quality and rank from the fit.
 void grade(const Sought& sought, Candidate& candidate);
+
+/// The same, but for what the clues say: of few points, looked at from afar, it is too little.
+void grade_at_a_glance(const Sought& sought, Candidate& candidate);
 
 /// Measures the fit, and grades.
 void judge(const Sought& sought, Candidate& candidate, const Closeness& look);

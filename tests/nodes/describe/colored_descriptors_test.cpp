@@ -16,14 +16,11 @@ Cloud body() { return painted(bumpy_cloud(2, kResolution)); }
 
 /// By how much the descriptors of the body change with its colours, in the median, relative.
 float change(const std::string& node, const Cloud& other) {
-  const DescriptorMatrix a = described(node, body(), 11, kParams).descriptors;
-  const DescriptorMatrix b = described(node, other, 11, kParams).descriptors;
-  REQUIRE(a.rows() == b.rows());
-  std::vector<float> changes;
-  for (Eigen::Index i = 0; i < a.rows(); ++i)
-    changes.push_back((a.row(i) - b.row(i)).norm() / a.row(i).norm());
-  std::nth_element(changes.begin(), changes.begin() + std::ssize(changes) / 2, changes.end());
-  return changes[changes.size() / 2];
+  const FeatureSet a = described(node, body(), 11, kParams);
+  const FeatureSet b = described(node, other, 11, kParams);
+  REQUIRE(a.points.rows() == b.points.rows());
+  const std::vector<float> all = differences(a, b);
+  return all[all.size() / 2];
 }
 
 }  // namespace

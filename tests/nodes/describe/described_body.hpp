@@ -57,15 +57,21 @@ inline double self_match_rate(const std::string& node, float noise,
   return right / static_cast<double>(nearest.size());
 }
 
-/// Largest distance of a row of `a` to the same row of `b`, leaving out the worst hundredth: a
-/// neighbour at exactly the radius may be in for one and out for the other.
-inline float typical_difference(const FeatureSet& a, const FeatureSet& b) {
+/// Distances of the rows of `a` to the same rows of `b`, relative, ascending.
+inline std::vector<float> differences(const FeatureSet& a, const FeatureSet& b) {
   std::vector<float> difference;
   for (Eigen::Index i = 0; i < a.descriptors.rows(); ++i)
     difference.push_back((a.descriptors.row(i) - b.descriptors.row(i)).norm() /
                          a.descriptors.row(i).norm());
   std::sort(difference.begin(), difference.end());
-  return difference[difference.size() * 99 / 100];
+  return difference;
+}
+
+/// The largest of them, leaving out the worst hundredth: a neighbour at exactly the radius may be in
+/// for one and out for the other.
+inline float typical_difference(const FeatureSet& a, const FeatureSet& b) {
+  const std::vector<float> all = differences(a, b);
+  return all[all.size() * 99 / 100];
 }
 
 }  // namespace posevote::test
