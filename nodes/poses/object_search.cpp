@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "graph/parallel.hpp"
 #include "nodes/poses/color_turns.hpp"
 #include "nodes/poses/pose_covariance.hpp"
 #include "nodes/poses/refinement.hpp"
@@ -91,7 +92,8 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
     if (end == pool_.begin()) break;
     std::ranges::stable_sort(pool_.begin(), end, std::greater(), &Candidate::confidence);
     if (sought_.watch) show("refine", {pool_.begin(), end});
-    if (auto best = best_of(pool_.begin(), end)) return best;
+    if (auto best = best_of(pool_.begin(), end))
+      return is_convincing(sought_, *best) ? best_of_place(*best) : *best;
     pool_.erase(pool_.begin(), end);
   }
   return std::nullopt;
@@ -115,6 +117,27 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
   }
   if (!first) return std::nullopt;
   return best_alike(sought_, *first, taken_);
+}
+
+/// Once `best` is an instance, its place is closed to whatever else was proposed there; so the first
+/// of those that were no finalists are refined before.
+Candidate ObjectSearch::best_of_place(const Candidate& best) const {
+  const auto center = [&](const Candidate& one) {
+    return posed_center(one.T_scene_model, sought_.model.center);
+  };
+  const auto most = static_cast<std::size_t>(sought_.terms.schedule.finalists);
+  Candidates others;
+  for (const Candidate& one : pool_)
+    if (others.size() < most && !one.is_refined &&
+        (center(one) - center(best)).norm() < static_cast<double>(sought_.params.nms_radius))
+      others.push_back(one);
+  graph::parallel_for(others.size(), 1, [&](std::size_t i) { refine(sought_, others[i]); });
+  std::erase_if(others, [&](const Candidate& one) {
+    return !is_convincing(sought_, one) || !taken_.is_clear(sought_.model, one.T_scene_model);
+  });
+  const auto better = std::ranges::max_element(others, {}, &Candidate::confidence);
+  if (better == others.end() || better->confidence <= best.confidence) return best;
+  return best_alike(sought_, *better, taken_);
 }
 
 void ObjectSearch::accept(const Candidate& known) {

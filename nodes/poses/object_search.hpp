@@ -60,6 +60,7 @@ class ObjectSearch {
   std::optional<Candidate> best_finalist();
   std::optional<Candidate> best_of(Candidates::const_iterator begin,
                                    Candidates::const_iterator end) const;
+  Candidate best_of_place(const Candidate& best) const;
 
   Sought sought_;
   Proposals proposals_;

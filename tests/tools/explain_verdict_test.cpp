@@ -223,6 +223,13 @@ TEST_CASE("a cause that is named without the true pose is held against it", "[ex
   CHECK_FALSE(is_confirmed(one));
   one.verdict = {Cause::kNotSeen, "", "hidden"};
   CHECK(is_confirmed(one));
+  one.verdict = {Cause::kRefused, "overhang", ""};  // of the object itself, and with its reason
+  CHECK(is_confirmed(one));
+  one.verdict.stage = "votes";
+  CHECK_FALSE(is_confirmed(one));
+  one.verdict.stage = "overhang";
+  one.best_is_true = false;
+  CHECK_FALSE(is_confirmed(one));
 }
 
 TEST_CASE("sentences hold the figures", "[explain]") {

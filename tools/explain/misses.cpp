@@ -74,6 +74,10 @@ std::size_t confirmed(const std::vector<Miss>& misses) {
 bool is_confirmed(const Explained& one) {
   if (one.guess.cause == one.verdict.cause)
     return one.best_is_true || one.guess.stage == one.verdict.stage;
+  // The candidate is the object, and what is most against it is said of both.
+  if (one.guess.cause == Cause::kNoTrace && one.best_is_true &&
+      one.verdict.cause == Cause::kRefused && one.guess.stage == one.verdict.stage)
+    return true;
   constexpr std::array kWithoutTrace{Cause::kNotSeen, Cause::kFewFeatures, Cause::kNotMatched,
                                      Cause::kDisagree};
   return one.guess.cause == Cause::kNoTrace && std::find(kWithoutTrace.begin(), kWithoutTrace.end(),

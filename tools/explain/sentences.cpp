@@ -168,10 +168,15 @@ std::string cause_of(const Verdict& verdict, const Case& of) {
       return "by the true poses there is none of it in this scan";
     case Cause::kNoTrace:
       return format(
-          "no trace of it: of %zu matches in the scan no pose gathers enough that the "
-          "scan bears out; it is not there, hidden, or described otherwise (with its "
-          "true pose, --truth or --dataset, it is told which)",
-          of.matches);
+                 "no trace of it: of %zu matches in the scan no pose gathers enough that the "
+                 "scan bears out; it is not there, hidden, or described otherwise (with its "
+                 "true pose, --truth or --dataset, it is told which)",
+                 of.matches) +
+             (of.pose
+                  ? format(". Were it where the best candidate is, confidence %.2f, most of all ",
+                           at.likelihood()) +
+                        meaning_of(verdict.stage)
+                  : "");
   }
   return "";
 }

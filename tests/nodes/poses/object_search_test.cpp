@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/object_search.hpp"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/nodes/poses/sought_body.hpp"
+
+using namespace posevote;
+using namespace posevote::poses;
+using namespace posevote::test;
+
+namespace {
+
+/// The search's best, of the body turned over, which has by far the most support, and of the body
+/// itself, moved so far from there [m].
+std::optional<Candidate> best_of_turned_and_moved(double metres) {
+  SoughtBody body({kBody});
+  body.params.min_confidence = body.params.min_score = 0;
+  body.params.terms.schedule.finalists = 1;
+  body.params.terms.score.trust_in_support = 5;
+  body.params.refine = false;
+  const std::vector<Hypothesis> proposals{body.hypothesis(beside(0, std::numbers::pi), 1000),
+                                          body.hypothesis(beside(metres), 10)};
+  ObjectSearch search(body.sought(),
+                      {[&] { return proposals; }, [](const Hypothesis& one) { return one; }});
+  search.propose();
+  return search.best();
+}
+
+double turn_from_body(const Candidate& candidate) {
+  return Eigen::AngleAxisd(candidate.T_scene_model.linear().transpose() *
+                           kBody.T_scene_model.linear())
+      .angle();
+}
+
+}  // namespace
+
+TEST_CASE("before its place is closed, what else was proposed there is refined", "[poses]") {
+  const auto here = best_of_turned_and_moved(0.002);
+  REQUIRE(here);
+  CHECK(turn_from_body(*here) < 0.1);
+  const auto elsewhere = best_of_turned_and_moved(0.05);  // has its own turn, later
+  REQUIRE(elsewhere);
+  CHECK(turn_from_body(*elsewhere) > 3);
+}
