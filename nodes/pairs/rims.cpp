@@ -20,20 +20,34 @@ constexpr float kHalfDisc = 0.424F;  // how far off the mean of half a disc is: 
 constexpr float kLeastOff = 0.25F;   // that of a disc that is cut 0.3 from its centre
 constexpr float kComesIn = 0.55F;    // by which the mean comes in as the cut goes out
 
-std::optional<Rim> rim_at(const Cloud& cloud, const geometry::PointGrid& grid, Eigen::Index i,
-                          float radius) {
-  const Eigen::Vector3f point = cloud.points.row(i).transpose();
-  const Eigen::Vector3f normal = cloud.normals.row(i).transpose();
+/// A cloud in the order of its grid, where neighbours lie side by side.
+struct Surface {
+  explicit Surface(const Cloud& cloud, float radius)
+      : grid(cloud.points, radius), normals(cloud.normals(grid.indices(), Eigen::all)) {}
+
+  geometry::PointGrid grid;
+  PointMatrix normals;
+};
+
+/// At the grid's `i`-th point.
+std::optional<Rim> rim_at(const Surface& surface, std::size_t i, float radius) {
+  const geometry::PointGrid& grid = surface.grid;
+  const Eigen::Vector3f point(grid.x()[i], grid.y()[i], grid.z()[i]);
+  const Eigen::Vector3f normal = surface.normals.row(static_cast<Eigen::Index>(i)).transpose();
   if (!normal.allFinite() || normal.isZero()) return std::nullopt;
+  thread_local std::vector<geometry::GridRun> runs;
+  grid.find_runs(point, point, radius, runs);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   std::size_t count = 0;
-  grid.for_each_within(point, radius, [&](std::uint32_t j, float) {
-    const Eigen::Vector3f offset = cloud.points.row(j).transpose() - point;
-    if (std::abs(normal.dot(offset)) > kOffPlane * radius) return;
-    if (!(cloud.normals.row(j).dot(normal) > kSameFace)) return;
-    sum += offset;
-    ++count;
-  });
+  for (const geometry::GridRun& run : runs)
+    for (std::size_t j = run.begin; j < run.end; ++j) {
+      const Eigen::Vector3f offset = Eigen::Vector3f(grid.x()[j], grid.y()[j], grid.z()[j]) - point;
+      if (offset.squaredNorm() > radius * radius) continue;
+      if (std::abs(normal.dot(offset)) > kOffPlane * radius) continue;
+      if (!(surface.normals.row(static_cast<Eigen::Index>(j)).dot(normal) > kSameFace)) continue;
+      sum += offset;
+      ++count;
+    }
   if (count < kFewest) return std::nullopt;
   const Eigen::Vector3f mean = sum / static_cast<float>(count);
   const Eigen::Vector3f off = mean - normal.dot(mean) * normal;
@@ -69,10 +83,10 @@ struct Side {
 }  // namespace
 
 std::vector<Rim> find_rims(const Cloud& cloud, float radius) {
-  const geometry::PointGrid grid(cloud.points, radius);
+  const Surface surface(cloud, radius);
   std::vector<std::optional<Rim>> found(static_cast<std::size_t>(cloud.points.rows()));
-  graph::parallel_for(found.size(), 256, [&](std::size_t i) {
-    found[i] = rim_at(cloud, grid, static_cast<Eigen::Index>(i), radius);
+  graph::parallel_for(surface.grid.size(), 256, [&](std::size_t i) {
+    found[surface.grid.indices()[i]] = rim_at(surface, i, radius);
   });
   std::vector<Rim> rims;
   for (const auto& one : found)

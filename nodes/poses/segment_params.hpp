@@ -12,7 +12,7 @@ namespace posevote::poses {
 
 struct SegmentParams {
   int max_instances = 20;
-  int candidates = 4000;
+  int candidates = 1000;
   double nms = 0.1;
   double min_confidence = 0.5;
   double min_score = 0.1;

@@ -54,9 +54,9 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
 /// fitted (posevote calibrate) on the 184 images of configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -28.56;
+  double offset = -23.59;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.322, 0.4214, 1.449, -5.574, 0.6512, 0.3902, 15.84, 3.14, 1.81, -0.8805, 0.2913};
+  Clues weights{1.602, 0.5879, 1.281, -5.314, 0.7029, 0.6433, 13.33, 2.555, 1.505, -0.1568, 0.5762};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted
