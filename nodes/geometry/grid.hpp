@@ -29,6 +29,16 @@ class PointGrid {
   /// that depends on the points and the query alone.
   template <class Visit>
   void for_each_within(const Eigen::Vector3f& center, float radius, const Visit& visit) const {
+    for_each_position_within(center, radius, [&](std::size_t position, float squared) {
+      visit(index_[position], squared);
+    });
+  }
+
+  /// The same, with the positions of the points in the grid's order: for what is kept in that order,
+  /// where neighbours lie side by side in memory.
+  template <class Visit>
+  void for_each_position_within(const Eigen::Vector3f& center, float radius,
+                                const Visit& visit) const {
     if (!center.allFinite() || !(radius >= 0)) return;
     const float squared_radius = radius * radius;
     for_each_run(center, center, radius, [&](const GridRun& run) {
@@ -37,7 +47,7 @@ class PointGrid {
         const float dy = y_[i] - center.y();
         const float dz = z_[i] - center.z();
         const float squared = dx * dx + dy * dy + dz * dz;
-        if (squared <= squared_radius) visit(index_[i], squared);
+        if (squared <= squared_radius) visit(i, squared);
       }
     });
   }

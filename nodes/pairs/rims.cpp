@@ -35,19 +35,15 @@ std::optional<Rim> rim_at(const Surface& surface, std::size_t i, float radius) {
   const Eigen::Vector3f point(grid.x()[i], grid.y()[i], grid.z()[i]);
   const Eigen::Vector3f normal = surface.normals.row(static_cast<Eigen::Index>(i)).transpose();
   if (!normal.allFinite() || normal.isZero()) return std::nullopt;
-  thread_local std::vector<geometry::GridRun> runs;
-  grid.find_runs(point, point, radius, runs);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   std::size_t count = 0;
-  for (const geometry::GridRun& run : runs)
-    for (std::size_t j = run.begin; j < run.end; ++j) {
-      const Eigen::Vector3f offset = Eigen::Vector3f(grid.x()[j], grid.y()[j], grid.z()[j]) - point;
-      if (offset.squaredNorm() > radius * radius) continue;
-      if (std::abs(normal.dot(offset)) > kOffPlane * radius) continue;
-      if (!(surface.normals.row(static_cast<Eigen::Index>(j)).dot(normal) > kSameFace)) continue;
-      sum += offset;
-      ++count;
-    }
+  grid.for_each_position_within(point, radius, [&](std::size_t j, float) {
+    const Eigen::Vector3f offset = Eigen::Vector3f(grid.x()[j], grid.y()[j], grid.z()[j]) - point;
+    if (std::abs(normal.dot(offset)) > kOffPlane * radius) return;
+    if (!(surface.normals.row(static_cast<Eigen::Index>(j)).dot(normal) > kSameFace)) return;
+    sum += offset;
+    ++count;
+  });
   if (count < kFewest) return std::nullopt;
   const Eigen::Vector3f mean = sum / static_cast<float>(count);
   const Eigen::Vector3f off = mean - normal.dot(mean) * normal;

@@ -132,12 +132,10 @@ Candidate ObjectSearch::best_of_place(const Candidate& best) const {
         (center(one) - center(best)).norm() < static_cast<double>(sought_.params.nms_radius))
       others.push_back(one);
   graph::parallel_for(others.size(), 1, [&](std::size_t i) { refine(sought_, others[i]); });
-  std::erase_if(others, [&](const Candidate& one) {
-    return !is_convincing(sought_, one) || !taken_.is_clear(sought_.model, one.T_scene_model);
-  });
-  const auto better = std::ranges::max_element(others, {}, &Candidate::confidence);
-  if (better == others.end() || better->confidence <= best.confidence) return best;
-  return best_alike(sought_, *better, taken_);
+  std::erase_if(others, [&](const Candidate& one) { return one.confidence <= best.confidence; });
+  std::ranges::stable_sort(others, std::greater(), &Candidate::confidence);
+  const std::optional<Candidate> better = best_of(others.begin(), others.end());
+  return better && is_convincing(sought_, *better) ? *better : best;
 }
 
 void ObjectSearch::accept(const Candidate& known) {

@@ -17,9 +17,10 @@ struct ViewedRun {
   ViewedRun() {
     fs::copy(world().folder / "data", dataset, fs::copy_options::recursive);
     folder.write("set/test/000001/depth/000002.png", "broken");
-    const CommandResult run =
-        run_posevote(folder, "run demo --dataset " + dataset.string() + " --out " + out.string() +
-                                 " --set write_picture.every=0 --set write_overlay.every=0");
+    const CommandResult run = run_posevote(
+        folder, "run demo --dataset " + dataset.string() + " --out " + out.string() +
+                    " --set write_picture.every=0 --set write_overlay.every=0"
+                    " --set pick_scene_features.spacing=2.5");  // more votes than shown
     INFO(run.output);
     REQUIRE(run.status == 1);
   }
@@ -71,7 +72,7 @@ TEST_CASE("a run's page holds scans, models, true poses, votes and the command l
   CHECK(first["found"].size() == 2);
   CHECK(first["votes"]["obj_id"] == 1);
   CHECK(first["votes"]["points"].get<int>() > 10000);
-  CHECK(first["votes"]["true_points"] >= first["votes"]["points"]);
+  CHECK(first["votes"]["true_points"] > first["votes"]["points"]);
   CHECK(first["votes"]["largest"] > 100);
   CHECK(page["models"].size() == 2);
   CHECK(page["models"][1]["surface"]["faces"].get<int>() <= 4000);
