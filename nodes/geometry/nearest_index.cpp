@@ -28,6 +28,12 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return key;
 }
 
+/// std::floor, which is a call where the machine is not known to have it as an instruction.
+std::int64_t floor_of(double value) {
+  const auto whole = static_cast<std::int64_t>(value);
+  return whole - static_cast<std::int64_t>(value < static_cast<double>(whole));
+}
+
 /// The number of a cube in its block; those along z follow one another.
 std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto in_block = [](std::int64_t place) { return place & (kSide - 1); };
@@ -74,8 +80,7 @@ std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
 
 NearestIndex::Cube NearestIndex::cube_of(const Eigen::Vector3d& point) const {
   const auto place = [this, &point](int axis) {
-    const double cube = std::floor(point[axis] * per_edge_);
-    return static_cast<std::int64_t>(std::clamp(cube, -kFarthest, kFarthest));
+    return floor_of(std::clamp(point[axis] * per_edge_, -kFarthest, kFarthest));
   };
   return {place(0), place(1), place(2)};
 }
@@ -109,10 +114,7 @@ class NearestIndex::Search {
   Search(const NearestIndex& index, const Eigen::Vector3f& center, float distance,
          const std::vector<char>& hidden)
       : index_(index), hidden_(hidden), center_(center), farthest_(distance * distance) {
-    // A trifle wider than the ball: only the distance decides who is in.
-    const double reach = 1.000001 * static_cast<double>(distance);
-    low_ = index.cube_of(center.cast<double>() - Eigen::Vector3d::Constant(reach));
-    high_ = index.cube_of(center.cast<double>() + Eigen::Vector3d::Constant(reach));
+    bound(static_cast<double>(distance));
   }
 
   std::optional<Neighbour> run() {
@@ -123,6 +125,7 @@ class NearestIndex::Search {
       look(0, index_.points_.size());
       return best_;
     }
+    look_around_center();
     for (std::int64_t x = low_[0] >> kShift; x <= high_[0] >> kShift; ++x)
       for (std::int64_t y = low_[1] >> kShift; y <= high_[1] >> kShift; ++y)
         for (std::int64_t z = low_[2] >> kShift; z <= high_[2] >> kShift; ++z) look_in(x, y, z);
@@ -130,6 +133,24 @@ class NearestIndex::Search {
   }
 
  private:
+  /// To the cubes that the ball meets, and a trifle more: only the distance decides who is in.
+  void bound(double distance) {
+    const double reach = 1.000001 * distance;
+    low_ = index_.cube_of(center_.cast<double>() - Eigen::Vector3d::Constant(reach));
+    high_ = index_.cube_of(center_.cast<double>() + Eigen::Vector3d::Constant(reach));
+  }
+
+  /// What is in the cube of the place itself spares most of those around.
+  void look_around_center() {
+    const auto [x, y, z] = index_.cube_of(center_.cast<double>());
+    const std::uint32_t block = index_.find(key_of(x >> kShift, y >> kShift, z >> kShift));
+    if (block == kNone) return;
+    const std::uint32_t* begin =
+        &index_.begin_[std::size_t{block} * kCubesPerBlock + place_in_block(x, y, z)];
+    look(begin[0], begin[1]);
+    if (best_) bound(std::sqrt(static_cast<double>(best_->squared)));
+  }
+
   void look_in(std::int64_t block_x, std::int64_t block_y, std::int64_t block_z) {
     const std::uint32_t block = index_.find(key_of(block_x, block_y, block_z));
     if (block == kNone) return;
@@ -167,11 +188,6 @@ class NearestIndex::Search {
 std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center, float distance,
                                                const std::vector<char>& hidden) const {
   if (points_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
-  // What is found within the edge spares a look at all that is farther.
-  const auto edge = static_cast<float>(1 / per_edge_);
-  if (distance > edge)
-    if (const std::optional<Neighbour> near = Search(*this, center, edge, hidden).run())
-      return near;
   return Search(*this, center, distance, hidden).run();
 }
 

@@ -2,9 +2,9 @@
 // Nearest-neighbour search for millions of queries, most of which ask for one distance or less.
 //
 // Space is cut into cubes with that distance as their edge, cubes come in blocks of 8 x 8 x 8, and
-// only blocks that hold points exist, in a hash table. A query within the edge reads nine short
-// rows of cubes, in two blocks on average; where nothing is near, which is most of the space around
-// a pose that is wrong, it ends after the look-ups. Memory: 16 bytes a point, 2 KB a block; where
+// only blocks that hold points exist, in a hash table. A query looks in its own cube first, and then
+// only in those within the distance found there, mostly a few; where nothing is near, which is most
+// of the space around a pose that is wrong, it ends after the look-ups. Memory: 16 bytes a point, 2 KB a block; where
 // points are so sparse that few share a block, cubes are larger. O(points) to build.
 #pragma once
 

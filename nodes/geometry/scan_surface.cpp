@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/scan_surface.hpp"
 
+#include <algorithm>
+
 namespace posevote::geometry {
 namespace {
+
+constexpr float kFarther = 2.5F;  // x reach: where ICP begins to look
 
 float squared(float value) { return value * value; }
 
@@ -15,17 +19,18 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
 
 ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
                          const SurfaceTerms& terms)
-    : points_(scan.points),
-      normals_(scan.normals),
-      gone_(static_cast<std::size_t>(scan.points.rows()), 0),
+    : gone_(static_cast<std::size_t>(scan.points.rows()), 0),
       viewpoint_(scan.view.origin),
       single_view_(single_view),
       facing_squared_(squared(static_cast<float>(terms.least_facing_cosine))),
       normal_cosine_(static_cast<float>(terms.least_normal_cosine)),
-      index_(points_, reach) {
-  for (std::size_t i = 0; i < gone_.size(); ++i) {
-    const bool usable = normals_.row(static_cast<Eigen::Index>(i)).squaredNorm() > 0.5F;
-    gone_[i] = static_cast<char>(!usable);
+      reach_(reach),
+      near_(scan.points, reach),
+      far_(scan.points, kFarther * reach) {
+  points_.reserve(gone_.size());
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
+    points_.push_back({scan.points.row(i).transpose(), scan.normals.row(i).transpose()});
+    gone_[points_.size() - 1] = static_cast<char>(!(points_.back().normal.squaredNorm() > 0.5F));
   }
 }
 
@@ -43,23 +48,24 @@ bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
 
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
                                                    float distance) const {
-  return index_.nearest(point, distance, gone_);
+  // What is found within reach spares a look at all that is farther.
+  const auto near = near_.nearest(point, std::min(distance, reach_), gone_);
+  return near || distance <= reach_ ? near : far_.nearest(point, distance, gone_);
 }
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,
                                                              float distance) const {
   const std::optional<Eigen::Index> row = compatible_row(p, distance);
   if (!row) return std::nullopt;
-  return OrientedPoint{points_.row(*row).transpose(), normals_.row(*row).transpose()};
+  return points_[static_cast<std::size_t>(*row)];
 }
 
 std::optional<Eigen::Index> ScanSurface::compatible_row(const OrientedPoint& p,
                                                         float distance) const {
   const std::optional<Neighbour> nearest = nearest_left(p.point, distance);
   if (!nearest) return std::nullopt;
-  const auto row = static_cast<Eigen::Index>(nearest->index);
-  if (normals_.row(row).transpose().dot(p.normal) < normal_cosine_) return std::nullopt;
-  return row;
+  if (points_[nearest->index].normal.dot(p.normal) < normal_cosine_) return std::nullopt;
+  return nearest->index;
 }
 
 }  // namespace posevote::geometry

@@ -49,12 +49,13 @@ class ScanSurface {
   std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
 
  private:
-  PointMatrix points_, normals_;
-  std::vector<char> gone_;  // per row: explained or without a normal
+  std::vector<OrientedPoint> points_;  // side by side: each is read alone
+  std::vector<char> gone_;             // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;
   bool single_view_;
   float facing_squared_, normal_cosine_;  // least
-  NearestIndex index_;
+  float reach_;
+  NearestIndex near_, far_;  // for distances up to reach_, and beyond
 };
 
 }  // namespace posevote::geometry

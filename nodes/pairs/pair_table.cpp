@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/pairs/pair_table.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "nodes/pairs/pair_key.hpp"
@@ -58,6 +60,11 @@ PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach)
   for_each_pair([&](std::uint32_t bin, std::size_t a, const Eigen::Vector3f& offset) {
     ends_[next[bin]++] = {static_cast<std::uint16_t>(a), points_[a].turn_to(offset)};
   });
+  for (std::size_t bin = 0; bin < bins(); ++bin)
+    std::sort(ends_.begin() + starts_[bin], ends_.begin() + starts_[bin + 1],
+              [](const PairEnd& x, const PairEnd& y) {
+                return std::tie(x.turn, x.point) < std::tie(y.turn, y.point);
+              });
 }
 
 std::shared_ptr<const PairTable> index_pairs(const Model& model, float step) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -32,9 +33,21 @@ class PairTable {
   float reach() const { return reach_; }
   const std::vector<LocalFrame>& points() const { return points_; }
   std::size_t bins() const { return starts_.size() - 1; }
-  /// The pairs of a bin.
+  /// The pairs of a bin, by their turns.
   std::span<const PairEnd> operator[](std::uint32_t bin) const {
     return std::span(ends_).subspan(starts_[bin], starts_[bin + 1] - starts_[bin]);
+  }
+  /// Calls visit(end) for each of a bin whose turn is at most `most` off, of 256 in a circle;
+  /// `most` < 128.
+  template <class Visit>
+  void for_each_turned(std::uint32_t bin, int turn, int most, const Visit& visit) const {
+    const std::span<const PairEnd> ends = (*this)[bin];
+    for (const int around : {-256, 0, 256}) {
+      const int low = turn - most + around, high = turn + most + around;
+      if (high < 0 || low > 255) continue;
+      auto end = std::ranges::lower_bound(ends, low, {}, &PairEnd::turn);
+      for (; end != ends.end() && end->turn <= high; ++end) visit(*end);
+    }
   }
 
  private:

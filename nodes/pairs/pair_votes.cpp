@@ -2,7 +2,6 @@
 #include "nodes/pairs/pair_votes.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numbers>
 #include <span>
 
@@ -17,9 +16,9 @@ constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
 
 }  // namespace
 
-template <class Count>
+template <class Visit>
 void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              const Count& count) {
+                              const Visit& visit) {
   for (const std::uint32_t bin : touched_) seen_[bin] = 0;
   touched_.clear();
   seen_.resize(std::max(seen_.size(), table.bins()));
@@ -33,7 +32,7 @@ void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, cons
     if (seen_[bin] & flag) return;
     if (seen_[bin] == 0) touched_.push_back(bin);
     seen_[bin] |= flag;
-    for (const PairEnd end : table[bin]) count(end, static_cast<std::uint8_t>(turn - end.turn));
+    visit(bin, turn);
   });
 }
 
@@ -83,19 +82,22 @@ std::vector<PairPeak> PairVotes::peaks_of_points(double ratio) const {
 
 std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const LocalFrame& at,
                                        const PairScene& scene, std::size_t count, double ratio,
-                                       Turn turn) {
+                                       Turn kind) {
   const std::size_t points = table.points().size();
   std::vector<PairPeak> peaks;
-  if (turn == Turn::kOpen) {
+  if (kind == Turn::kOpen) {
     counts_.assign(points * kTurns, 0);
-    for_each_pair(table, at, scene, [this](PairEnd end, std::uint8_t off) {
-      ++counts_[end.point * kTurns + off / (256 / kTurns)];
+    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn) {
+      for (const PairEnd end : table[bin]) {
+        const auto off = static_cast<std::uint8_t>(turn - end.turn);
+        ++counts_[end.point * kTurns + off / (256 / kTurns)];
+      }
     });
     peaks = peaks_of_turns(points, ratio);
   } else {
     counts_.assign(points, 0);
-    for_each_pair(table, at, scene, [this](PairEnd end, std::uint8_t off) {
-      if (std::abs(static_cast<std::int8_t>(off)) <= kSameTurn) ++counts_[end.point];
+    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn) {
+      table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
     });
     peaks = peaks_of_points(ratio);
   }

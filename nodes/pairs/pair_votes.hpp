@@ -26,17 +26,17 @@ class PairScene {
   /// Calls visit(point) for each within `reach` [m].
   template <class Visit>
   void for_each_within(const Eigen::Vector3f& center, float reach, const Visit& visit) const {
-    grid_.for_each_within(center, reach, [&](std::uint32_t i, float) { visit(points_[i]); });
+    grid_.for_each_position_within(center, reach, [&](std::size_t i, float) { visit(points_[i]); });
   }
 
  private:
   PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
-    for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
+    for (const std::uint32_t i : grid_.indices())
       points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
   }
 
   geometry::PointGrid grid_;
-  std::vector<Point> points_;  ///< side by side: each is read alone
+  std::vector<Point> points_;  ///< in the grid's order
 };
 
 /// A pose under which many pairs agree: the model's point lies in the scan's, normal on normal, and
@@ -57,16 +57,16 @@ class PairVotes {
  public:
   /// The `count` best, in descending order, none with less than `ratio` of the best one's pairs.
   std::vector<PairPeak> peaks(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              std::size_t count, double ratio, Turn turn = Turn::kOpen);
+                              std::size_t count, double ratio, Turn kind = Turn::kOpen);
 
  private:
   static constexpr std::uint32_t kTurns = 32;
 
-  /// Calls count(end, turn) for each pair of the model that the scan has, too, and the turn about
-  /// the point at which it has it.
-  template <class Count>
+  /// Calls visit(bin, turn) for each kind of pair that the scan has about the point, and the turn
+  /// about it at which it has it.
+  template <class Visit>
   void for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                     const Count& count);
+                     const Visit& visit);
   std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio) const;
   std::vector<PairPeak> peaks_of_points(double ratio) const;
   PairPeak peak_of(std::uint16_t point) const;

@@ -2,18 +2,20 @@
 #include "nodes/pairs/rims.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/voxels.hpp"
+#include "nodes/pairs/face_sums.hpp"
 
 namespace posevote::pairs {
 namespace {
 
 constexpr float kSameFace = 0.87F;  // cosine of 30 deg between normals
-constexpr std::size_t kFewest = 6;  // neighbours
+constexpr float kFewest = 6;        // neighbours
 // x radius.
 constexpr float kOffPlane = 0.25F;
 constexpr float kHalfDisc = 0.424F;  // how far off the mean of half a disc is: 4 / (3 pi)
@@ -22,30 +24,40 @@ constexpr float kComesIn = 0.55F;    // by which the mean comes in as the cut go
 
 /// A cloud in the order of its grid, where neighbours lie side by side.
 struct Surface {
-  explicit Surface(const Cloud& cloud, float radius)
-      : grid(cloud.points, radius), normals(cloud.normals(grid.indices(), Eigen::all)) {}
+  Surface(const Cloud& cloud, float radius) : grid(cloud.points, radius) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<float>& values = normals[static_cast<std::size_t>(axis)];
+      values.reserve(grid.size() + geometry::kGridPadding);
+      for (const std::uint32_t i : grid.indices())
+        values.push_back(cloud.normals(static_cast<Eigen::Index>(i), axis));
+      values.resize(grid.size() + geometry::kGridPadding, 0);
+    }
+  }
+
+  OrientedPoints points() const {
+    return {grid.x(), grid.y(), grid.z(), normals[0].data(), normals[1].data(), normals[2].data()};
+  }
 
   geometry::PointGrid grid;
-  PointMatrix normals;
+  std::array<std::vector<float>, 3> normals;  ///< x, y, z; padded
 };
 
-/// At the grid's `i`-th point.
-std::optional<Rim> rim_at(const Surface& surface, std::size_t i, float radius) {
-  const geometry::PointGrid& grid = surface.grid;
-  const Eigen::Vector3f point(grid.x()[i], grid.y()[i], grid.z()[i]);
-  const Eigen::Vector3f normal = surface.normals.row(static_cast<Eigen::Index>(i)).transpose();
+/// At the grid's `i`-th point. `runs`: memory that is used anew for each.
+std::optional<Rim> rim_at(const Surface& surface, std::size_t i, float radius,
+                          std::vector<geometry::GridRun>& runs) {
+  const OrientedPoints all = surface.points();
+  const Eigen::Vector3f point(all.x[i], all.y[i], all.z[i]);
+  const Eigen::Vector3f normal(all.nx[i], all.ny[i], all.nz[i]);
   if (!normal.allFinite() || normal.isZero()) return std::nullopt;
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  std::size_t count = 0;
-  grid.for_each_position_within(point, radius, [&](std::size_t j, float) {
-    const Eigen::Vector3f offset = Eigen::Vector3f(grid.x()[j], grid.y()[j], grid.z()[j]) - point;
-    if (std::abs(normal.dot(offset)) > kOffPlane * radius) return;
-    if (!(surface.normals.row(static_cast<Eigen::Index>(j)).dot(normal) > kSameFace)) return;
-    sum += offset;
-    ++count;
-  });
-  if (count < kFewest) return std::nullopt;
-  const Eigen::Vector3f mean = sum / static_cast<float>(count);
+  surface.grid.find_runs(point, point, radius, runs);
+  const FaceSums sums = face_sums(all, runs.data(), runs.size(),
+                                  {{point.x(), point.y(), point.z()},
+                                   {normal.x(), normal.y(), normal.z()},
+                                   radius,
+                                   kOffPlane * radius,
+                                   kSameFace});
+  if (sums.count < kFewest) return std::nullopt;
+  const Eigen::Vector3f mean = Eigen::Vector3f(sums.x, sums.y, sums.z) / sums.count;
   const Eigen::Vector3f off = mean - normal.dot(mean) * normal;
   const float share = off.norm() / radius;
   if (!(share > kLeastOff)) return std::nullopt;
@@ -81,8 +93,10 @@ struct Side {
 std::vector<Rim> find_rims(const Cloud& cloud, float radius) {
   const Surface surface(cloud, radius);
   std::vector<std::optional<Rim>> found(static_cast<std::size_t>(cloud.points.rows()));
-  graph::parallel_for(surface.grid.size(), 256, [&](std::size_t i) {
-    found[surface.grid.indices()[i]] = rim_at(surface, i, radius);
+  graph::parallel_ranges(surface.grid.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<geometry::GridRun> runs;
+    for (std::size_t i = begin; i < end; ++i)
+      found[surface.grid.indices()[i]] = rim_at(surface, i, radius, runs);
   });
   std::vector<Rim> rims;
   for (const auto& one : found)

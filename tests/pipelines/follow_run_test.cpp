@@ -10,10 +10,14 @@ using Catch::Contains;
 TEST_CASE("scans are answered as they come, until somebody says stop", "[follow]") {
   const fs::path folder = world().folder / "arriving";
   fs::create_directories(folder);
+  const std::vector<std::string> scans = {"000000.ply", "000001.ply", "000002.ply"};
+  // Before the program starts: it would inherit a file that is open to write, and wait for it to be
+  // closed.
+  for (const std::string& scan : scans)
+    fs::copy_file(world().scans / scan, folder / (scan + ".part"));
   std::thread writer([&] {
-    for (const char* scan : {"000000.ply", "000001.ply", "000002.ply"}) {
-      fs::copy_file(world().scans / scan, folder / (std::string(scan) + ".part"));
-      fs::rename(folder / (std::string(scan) + ".part"), folder / scan);
+    for (const std::string& scan : scans) {
+      fs::rename(folder / (scan + ".part"), folder / scan);
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
     }
     std::ofstream(folder / "stop").flush();

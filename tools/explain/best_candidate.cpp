@@ -16,6 +16,7 @@ constexpr double kWorthNaming = 1.5;
 poses::SegmentParams deeper(const poses::SegmentParams& params) {
   poses::SegmentParams more = params;
   poses::ScheduleTerms& schedule = more.terms.schedule;
+  more.candidates = std::min(10000, 4 * params.candidates);
   schedule.shortlist = std::min(10000, 4 * schedule.shortlist);
   schedule.promising = schedule.finalists = std::max(150, schedule.promising);
   schedule.hopeless = 0;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "nodes/geometry/scan_surface.hpp"
+
 using namespace posevote;
 
 namespace {
@@ -38,6 +40,10 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
   const geometry::NearestIndex near(points, kReach);
   std::vector<char> hidden(static_cast<std::size_t>(points.rows()));
   for (char& one : hidden) one = static_cast<char>(random() % 4 == 0);
+  PointMatrix normals = PointMatrix::Zero(points.rows(), 3);
+  normals.col(2).setOnes();
+  geometry::ScanSurface surface({points, normals, {}}, false, kReach);
+  surface.take_out(hidden);
   std::uniform_real_distribution<float> place(-spread, spread), share(0, 1);
   int found = 0;
   for (int q = 0; q < 3000; ++q) {
@@ -45,11 +51,14 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
     const float distance = (q % 3 == 0 ? 4 * kReach : kReach) * share(random);
     const auto expected = by_brute_force(points, center, distance, hidden);
     const auto got = near.nearest(center, distance, hidden);
+    const auto left = surface.nearest_left(center, distance);
     REQUIRE(got.has_value() == expected.has_value());
+    REQUIRE(left.has_value() == expected.has_value());
     if (!got) continue;
     ++found;
     CHECK(got->index == expected->index);
     CHECK(got->squared == expected->squared);
+    CHECK(left->index == expected->index);
   }
   CHECK(found > 100);
 }

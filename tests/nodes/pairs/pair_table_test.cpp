@@ -2,7 +2,10 @@
 #include "nodes/pairs/pair_table.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "nodes/pairs/pair_key.hpp"
 #include "tests/support/shapes.hpp"
@@ -36,6 +39,24 @@ TEST_CASE("every pair of a model's points is in its bin, from both ends", "[pair
       CHECK(found);
     }
   CHECK(all == 60 * 59);
+}
+
+TEST_CASE("of a bin, those with about one turn are found around the circle", "[pairs]") {
+  const pairs::PairTable table(ball(60), 0.02F, 0.1F);
+  std::size_t found = 0;
+  for (std::uint32_t bin = 0; bin < table.bins(); ++bin)
+    for (const int turn : {0, 5, 100, 250, 255}) {
+      std::multiset<std::pair<int, int>> expected, got;
+      for (const pairs::PairEnd end : table[bin]) {
+        const int off = std::abs(turn - end.turn);
+        if (std::min(off, 256 - off) <= 14) expected.emplace(end.point, end.turn);
+      }
+      table.for_each_turned(bin, turn, 14,
+                            [&](pairs::PairEnd end) { got.emplace(end.point, end.turn); });
+      CHECK(got == expected);
+      found += got.size();
+    }
+  CHECK(found > 100);
 }
 
 TEST_CASE("a table is of a thinned model", "[pairs]") {

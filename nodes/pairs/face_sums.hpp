@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The inner loop of find_rims: the mean of the neighbours that belong to a point's face, as many at
+// once as the processor allows. As plane_moments.hpp, in sixteen lanes: every processor gives the
+// same bits.
+#pragma once
+
+#include <cstddef>
+
+#include "nodes/geometry/grid_run.hpp"
+
+namespace posevote::pairs {
+
+/// Points and their normals as six arrays, with kGridPadding floats behind the last that may be read.
+struct OrientedPoints {
+  const float *x, *y, *z, *nx, *ny, *nz;
+};
+
+/// A point, and what belongs to its face.
+struct Face {
+  float point[3], normal[3];
+  float radius;       ///< of its neighbours [m]
+  float off_plane;    ///< how far above or below they may lie [m]
+  float same_normal;  ///< cosine between normals that is exceeded
+};
+
+/// Of the neighbours' offsets from the point [m], and how many there are.
+struct FaceSums {
+  float x, y, z, count;
+};
+
+/// Over all points in the runs.
+FaceSums face_sums(const OrientedPoints& points, const geometry::GridRun* runs,
+                   std::size_t run_count, const Face& face);
+
+}  // namespace posevote::pairs
