@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "nodes/geometry/lanes.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nodes/geometry/plane_moments.cpp"
 #include <hwy/foreach_target.h>
@@ -13,17 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace posevote::geometry::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kLanes = 16;  // fixed: the order of the sums, hence their bits, hangs on it
-static_assert(kLanes <= kGridPadding);
 using Floats = hn::CappedTag<float, kLanes>;
 using F = hn::Vec<Floats>;
-
-/// The lanes' sum, always in the same order.
-HWY_INLINE float total(float* lanes) {
-  for (std::size_t half = kLanes / 2; half > 0; half /= 2)
-    for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
-  return lanes[0];
-}
 
 PlaneMoments moments(const WeightedPoints& points, const GridRun* runs, std::size_t run_count,
                      const float* center, float radius) {
@@ -60,9 +53,10 @@ PlaneMoments moments(const WeightedPoints& points, const GridRun* runs, std::siz
     const F sums[kSums] = {xx, xy, xz, yy, yz, zz, x, y, z, one, count};
     for (std::size_t s = 0; s < kSums; ++s) hn::Store(sums[s], d, &lanes[s][first]);
   }
-  return {total(lanes[0]), total(lanes[1]), total(lanes[2]), total(lanes[3]),
-          total(lanes[4]), total(lanes[5]), total(lanes[6]), total(lanes[7]),
-          total(lanes[8]), total(lanes[9]), total(lanes[10])};
+  return {sum_of_lanes(lanes[0]), sum_of_lanes(lanes[1]), sum_of_lanes(lanes[2]),
+          sum_of_lanes(lanes[3]), sum_of_lanes(lanes[4]), sum_of_lanes(lanes[5]),
+          sum_of_lanes(lanes[6]), sum_of_lanes(lanes[7]), sum_of_lanes(lanes[8]),
+          sum_of_lanes(lanes[9]), sum_of_lanes(lanes[10])};
 }
 
 }  // namespace posevote::geometry::HWY_NAMESPACE

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "nodes/geometry/lanes.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nodes/pairs/face_sums.cpp"
 #include <hwy/foreach_target.h>
@@ -12,18 +14,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace posevote::pairs::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using geometry::kLanes, geometry::sum_of_lanes;
 
-constexpr std::size_t kLanes = 16;  // fixed: the order of the sums, hence their bits, hangs on it
-static_assert(kLanes <= geometry::kGridPadding);
 using Floats = hn::CappedTag<float, kLanes>;
 using F = hn::Vec<Floats>;
-
-/// The lanes' sum, always in the same order.
-HWY_INLINE float total(float* lanes) {
-  for (std::size_t half = kLanes / 2; half > 0; half /= 2)
-    for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
-  return lanes[0];
-}
 
 HWY_INLINE F dot(F ax, F ay, F az, F bx, F by, F bz) {
   return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
@@ -63,7 +57,8 @@ FaceSums sums(const OrientedPoints& points, const geometry::GridRun* runs, std::
     hn::Store(z, d, &lanes[2][first]);
     hn::Store(count, d, &lanes[3][first]);
   }
-  return {total(lanes[0]), total(lanes[1]), total(lanes[2]), total(lanes[3])};
+  return {sum_of_lanes(lanes[0]), sum_of_lanes(lanes[1]), sum_of_lanes(lanes[2]),
+          sum_of_lanes(lanes[3])};
 }
 
 }  // namespace posevote::pairs::HWY_NAMESPACE
