@@ -38,6 +38,8 @@ class ScanSurface {
   /// From now on, points with explained[row] are not found either.
   void take_out(const std::vector<char>& explained);
 
+  /// Whether a point was taken out, or had no normal from the start.
+  bool is_gone(std::size_t row) const { return gone_[row] != 0; }
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
   /// Whether a surface with this orientation turns its outside to the sensor.
   bool faces_sensor(const OrientedPoint& p) const;

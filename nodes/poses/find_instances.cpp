@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "graph/parallel.hpp"
+#include "nodes/poses/contest.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -28,14 +29,36 @@ bool propose(const Searches& searches) {
   return !open.empty();
 }
 
+/// What a search has to offer is claimed as far as what is supported.
+Claim claim_of(const ObjectSearch& search) {
+  return {search.model(), *search.best(), search.params().tolerance};
+}
+
+ObjectSearch* most_confident(const Searches& searches) {
+  ObjectSearch* best = nullptr;
+  for (ObjectSearch* search : searches)
+    if (search->best() && (!best || search->best()->confidence > best->best()->confidence))
+      best = search;
+  return best;
+}
+
+/// Of those that would be a detection, the one that goes before `best`, or that.
+ObjectSearch* ahead_of(ObjectSearch* best, const Searches& searches, const ScanState& scan) {
+  ObjectSearch* ahead = best;
+  for (ObjectSearch* rival : searches)
+    if (rival != ahead && rival->best() &&
+        rival->best()->confidence >= rival->params().min_confidence &&
+        goes_before(claim_of(*rival), claim_of(*ahead), scan))
+      ahead = rival;
+  return ahead;
+}
+
 /// The search that has the best pose for the scan as it is now; null if none has any. What was
 /// judged before is an upper bound, so most of them need no second look.
-ObjectSearch* best_of(const Searches& searches) {
+ObjectSearch* best_of(const Searches& searches, const ScanState& scan) {
   for (;;) {
-    ObjectSearch* best = nullptr;
-    for (ObjectSearch* search : searches)
-      if (search->best() && (!best || search->best()->confidence > best->best()->confidence))
-        best = search;
+    ObjectSearch* best = most_confident(searches);
+    if (best && best->is_current()) best = ahead_of(best, searches, scan);
     if (!best || best->is_current()) return best;
     best->choose();
   }
@@ -47,7 +70,7 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
   std::vector<Instance> found;
   // When all that was proposed is used up, what was taken out may have uncovered other modes.
   while (propose(sorted))
-    while (ObjectSearch* search = best_of(sorted)) {
+    while (ObjectSearch* search = best_of(sorted, scan)) {
       const Instance& instance = found.emplace_back(
           Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
       search->accept();
