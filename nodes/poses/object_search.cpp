@@ -35,6 +35,13 @@ class Stopwatch {
 ObjectSearch::ObjectSearch(const Sought& sought, Proposals proposals)
     : sought_(sought), proposals_(std::move(proposals)), taken_(sought.params.nms_radius) {}
 
+bool ObjectSearch::may_propose() const {
+  if (is_full() || proposed_at_ == sought_.scan.takes) return false;
+  const bool took_few =
+      sought_.params.candidates <= static_cast<std::size_t>(sought_.terms.schedule.shortlist);
+  return proposed_at_ < 0 || accepted_ > 0 || took_few;
+}
+
 void ObjectSearch::propose() {
   {
     const Stopwatch watch(seconds_);

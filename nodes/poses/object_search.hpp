@@ -39,8 +39,9 @@ class ObjectSearch {
   bool is_current() const { return chosen_at_ == sought_.scan.takes; }
   /// Whether all instances that may be are found.
   bool is_full() const { return accepted_ == sought_.params.max_instances; }
-  /// Whether other poses may be proposed for the scan as it is now.
-  bool may_propose() const { return !is_full() && proposed_at_ != sought_.scan.takes; }
+  /// Whether other poses may be proposed for the scan as it is now. Where nothing was found among more
+  /// places than a shortlist holds, nothing is among those that others uncovered.
+  bool may_propose() const;
 
   /// Has poses proposed for the scan as it is now, and chooses.
   void propose();

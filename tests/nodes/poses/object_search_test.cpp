@@ -44,3 +44,21 @@ TEST_CASE("before its place is closed, what else was proposed there is refined",
   REQUIRE(elsewhere);
   CHECK(turn_from_body(*elsewhere) > 3);
 }
+
+TEST_CASE("of what was not found among many places no more are asked for", "[poses]") {
+  const auto asks_again = [](const Eigen::Isometry3d& proposed, int candidates) {
+    SoughtBody body({kBody});
+    body.params.candidates = candidates;
+    const std::vector<Hypothesis> proposals{body.hypothesis(proposed)};
+    ObjectSearch search(body.sought(),
+                        {[&] { return proposals; }, [](const Hypothesis& one) { return one; }});
+    CHECK(search.may_propose());
+    search.propose();
+    if (search.best()) search.accept();
+    body.scan.take_out(body.model, kBody.T_scene_model, 0.01F);
+    return search.may_propose();
+  };
+  CHECK_FALSE(asks_again(beside(0.4), 1000));
+  CHECK(asks_again(beside(0), 1000));
+  CHECK(asks_again(beside(0.4), 1));  // the paper's: the densest mode may be a false one
+}
