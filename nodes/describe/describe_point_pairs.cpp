@@ -29,6 +29,7 @@
 #include "nodes/descriptors/distance_histogram.hpp"
 #include "nodes/descriptors/feature_set.hpp"
 #include "nodes/descriptors/register_descriptor.hpp"
+#include "nodes/geometry/grid_normals.hpp"
 
 namespace posevote::describe {
 namespace {
@@ -43,33 +44,6 @@ constexpr int kAngles = PointPairSums::kAngles;
 constexpr int kRows = PointPairSums::kDistanceBins;
 constexpr int kColumns = PointPairSums::kAngleBins;
 constexpr int kLength = kAngles * kRows * kColumns;
-
-/// The normals of a cloud in the grid's order, as the kernel wants them.
-class GridNormals {
- public:
-  explicit GridNormals(const descriptors::Support& support) : grid_(support.grid()) {
-    const Cloud& cloud = support.cloud();
-    const auto count = static_cast<Eigen::Index>(grid_.size());
-    normals_.setZero(count + static_cast<Eigen::Index>(geometry::kGridPadding), 3);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const std::uint32_t point = grid_.indices()[static_cast<std::size_t>(i)];
-      normals_.row(i) = cloud.normals.row(point);
-      if (!descriptors::is_oriented(cloud, point)) normals_.row(i).setConstant(std::nanf(""));
-    }
-  }
-  OrientedColumns columns() const {
-    return {grid_.x(),
-            grid_.y(),
-            grid_.z(),
-            normals_.col(0).data(),
-            normals_.col(1).data(),
-            normals_.col(2).data()};
-  }
-
- private:
-  const geometry::PointGrid& grid_;
-  PointMatrix normals_;
-};
 
 /// The histograms, margins folded back into the first and the last bins.
 using Histograms = std::array<std::array<std::array<float, kColumns>, kRows>, kAngles>;
@@ -104,7 +78,7 @@ void write(const Histograms& histograms, float* descriptor) {
 }
 
 /// Writes the descriptor of one point and returns how many neighbours it is made of.
-int describe(const descriptors::Support& support, const OrientedColumns& columns,
+int describe(const descriptors::Support& support, const geometry::OrientedColumns& columns,
              std::uint32_t point, float min_facing, float* descriptor) {
   const Eigen::Vector3f center = support.cloud().points.row(point);
   const Eigen::Vector3f normal = support.cloud().normals.row(point);
@@ -121,7 +95,9 @@ int describe(const descriptors::Support& support, const OrientedColumns& columns
 FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                                 const Params& params) {
   const descriptors::Support support(cloud, points, scale, params.radius);
-  const GridNormals normals(support);
+  const geometry::GridNormals normals(support.grid(), cloud.normals, [&cloud](std::uint32_t point) {
+    return descriptors::is_oriented(cloud, point);
+  });
   const auto one = [&](std::uint32_t point, float* descriptor) {
     return describe(support, normals.columns(), point, static_cast<float>(params.min_facing),
                     descriptor) >= params.min_neighbours;

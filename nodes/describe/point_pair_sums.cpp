@@ -58,7 +58,8 @@ class Pairs {
   }
 
   /// Adds the neighbours among the points from i on, where `valid`.
-  HWY_INLINE void add(const OrientedColumns& cloud, std::size_t i, hn::Mask<Floats> valid) {
+  HWY_INLINE void add(const geometry::OrientedColumns& cloud, std::size_t i,
+                      hn::Mask<Floats> valid) {
     const Floats d;
     const F x = hn::Sub(hn::LoadU(d, cloud.x + i), px_);
     const F y = hn::Sub(hn::LoadU(d, cloud.y + i), py_);
@@ -163,8 +164,8 @@ class Pairs {
   HWY_ALIGN float weight_[PointPairSums::kAngles][4 * kRoom];
 };
 
-int add_pairs(const OrientedColumns& cloud, const geometry::GridRun* runs, std::size_t run_count,
-              const PairSource& source, PointPairSums& sums) {
+int add_pairs(const geometry::OrientedColumns& cloud, const geometry::GridRun* runs,
+              std::size_t run_count, const PairSource& source, PointPairSums& sums) {
   const Floats d;
   Pairs pairs(source, sums);
   for (std::size_t r = 0; r < run_count; ++r)
@@ -181,7 +182,7 @@ namespace posevote::describe {
 
 HWY_EXPORT(add_pairs);
 
-int add_point_pairs(const OrientedColumns& cloud, const geometry::GridRun* runs,
+int add_point_pairs(const geometry::OrientedColumns& cloud, const geometry::GridRun* runs,
                     std::size_t run_count, const PairSource& source, PointPairSums& pairs) {
   return HWY_DYNAMIC_DISPATCH(add_pairs)(cloud, runs, run_count, source, pairs);
 }

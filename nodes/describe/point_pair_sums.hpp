@@ -8,14 +8,9 @@
 #include <cstddef>
 
 #include "nodes/geometry/grid_run.hpp"
+#include "nodes/geometry/oriented_columns.hpp"
 
 namespace posevote::describe {
-
-/// Points and normals as six arrays in the order of a grid, with kGridPadding floats behind the
-/// last that may be read. A normal that is not a number: the point is no neighbour.
-struct OrientedColumns {
-  const float *x, *y, *z, *nx, *ny, *nz;
-};
 
 /// Pairs by distance and by each of four angles, interpolated linearly. Bin centres lie at half
 /// numbers, so the lower of two bins may be one before the first, the upper one behind the last;
@@ -39,7 +34,7 @@ struct PairSource {
 
 /// Adds the pairs with all neighbours in the runs, except those where the point itself lies, to
 /// `pairs`. Returns how many.
-int add_point_pairs(const OrientedColumns& cloud, const geometry::GridRun* runs,
+int add_point_pairs(const geometry::OrientedColumns& cloud, const geometry::GridRun* runs,
                     std::size_t run_count, const PairSource& source, PointPairSums& pairs);
 
 }  // namespace posevote::describe

@@ -23,8 +23,8 @@ HWY_INLINE F dot(F ax, F ay, F az, F bx, F by, F bz) {
   return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
 }
 
-FaceSums sums(const OrientedPoints& points, const geometry::GridRun* runs, std::size_t run_count,
-              const Face& face) {
+FaceSums sums(const geometry::OrientedColumns& points, const geometry::GridRun* runs,
+              std::size_t run_count, const Face& face) {
   const Floats d;
   const F cx = hn::Set(d, face.point[0]), cy = hn::Set(d, face.point[1]),
           cz = hn::Set(d, face.point[2]);
@@ -69,7 +69,7 @@ namespace posevote::pairs {
 
 HWY_EXPORT(sums);
 
-FaceSums face_sums(const OrientedPoints& points, const geometry::GridRun* runs,
+FaceSums face_sums(const geometry::OrientedColumns& points, const geometry::GridRun* runs,
                    std::size_t run_count, const Face& face) {
   return HWY_DYNAMIC_DISPATCH(sums)(points, runs, run_count, face);
 }

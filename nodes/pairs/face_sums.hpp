@@ -7,13 +7,9 @@
 #include <cstddef>
 
 #include "nodes/geometry/grid_run.hpp"
+#include "nodes/geometry/oriented_columns.hpp"
 
 namespace posevote::pairs {
-
-/// Points and their normals as six arrays, with kGridPadding floats behind the last that may be read.
-struct OrientedPoints {
-  const float *x, *y, *z, *nx, *ny, *nz;
-};
 
 /// A point, and what belongs to its face.
 struct Face {
@@ -29,7 +25,7 @@ struct FaceSums {
 };
 
 /// Over all points in the runs.
-FaceSums face_sums(const OrientedPoints& points, const geometry::GridRun* runs,
+FaceSums face_sums(const geometry::OrientedColumns& points, const geometry::GridRun* runs,
                    std::size_t run_count, const Face& face);
 
 }  // namespace posevote::pairs

@@ -2,12 +2,11 @@
 #include "nodes/pairs/rims.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "graph/parallel.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/grid_normals.hpp"
 #include "nodes/geometry/voxels.hpp"
 #include "nodes/pairs/face_sums.hpp"
 
@@ -22,34 +21,13 @@ constexpr float kHalfDisc = 0.424F;  // how far off the mean of half a disc is: 
 constexpr float kLeastOff = 0.25F;   // that of a disc that is cut 0.3 from its centre
 constexpr float kComesIn = 0.55F;    // by which the mean comes in as the cut goes out
 
-/// A cloud in the order of its grid, where neighbours lie side by side.
-struct Surface {
-  Surface(const Cloud& cloud, float radius) : grid(cloud.points, radius) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<float>& values = normals[static_cast<std::size_t>(axis)];
-      values.reserve(grid.size() + geometry::kGridPadding);
-      for (const std::uint32_t i : grid.indices())
-        values.push_back(cloud.normals(static_cast<Eigen::Index>(i), axis));
-      values.resize(grid.size() + geometry::kGridPadding, 0);
-    }
-  }
-
-  OrientedPoints points() const {
-    return {grid.x(), grid.y(), grid.z(), normals[0].data(), normals[1].data(), normals[2].data()};
-  }
-
-  geometry::PointGrid grid;
-  std::array<std::vector<float>, 3> normals;  ///< x, y, z; padded
-};
-
 /// At the grid's `i`-th point. `runs`: memory that is used anew for each.
-std::optional<Rim> rim_at(const Surface& surface, std::size_t i, float radius,
-                          std::vector<geometry::GridRun>& runs) {
-  const OrientedPoints all = surface.points();
+std::optional<Rim> rim_at(const geometry::PointGrid& grid, const geometry::OrientedColumns& all,
+                          std::size_t i, float radius, std::vector<geometry::GridRun>& runs) {
   const Eigen::Vector3f point(all.x[i], all.y[i], all.z[i]);
   const Eigen::Vector3f normal(all.nx[i], all.ny[i], all.nz[i]);
   if (!normal.allFinite() || normal.isZero()) return std::nullopt;
-  surface.grid.find_runs(point, point, radius, runs);
+  grid.find_runs(point, point, radius, runs);
   const FaceSums sums = face_sums(all, runs.data(), runs.size(),
                                   {{point.x(), point.y(), point.z()},
                                    {normal.x(), normal.y(), normal.z()},
@@ -91,12 +69,13 @@ struct Side {
 }  // namespace
 
 std::vector<Rim> find_rims(const Cloud& cloud, float radius) {
-  const Surface surface(cloud, radius);
+  const geometry::PointGrid grid(cloud.points, radius);
+  const geometry::GridNormals normals(grid, cloud.normals, [](std::uint32_t) { return true; });
   std::vector<std::optional<Rim>> found(static_cast<std::size_t>(cloud.points.rows()));
-  graph::parallel_ranges(surface.grid.size(), 256, [&](std::size_t begin, std::size_t end) {
+  graph::parallel_ranges(grid.size(), 256, [&](std::size_t begin, std::size_t end) {
     std::vector<geometry::GridRun> runs;
     for (std::size_t i = begin; i < end; ++i)
-      found[surface.grid.indices()[i]] = rim_at(surface, i, radius, runs);
+      found[grid.indices()[i]] = rim_at(grid, normals.columns(), i, radius, runs);
   });
   std::vector<Rim> rims;
   for (const auto& one : found)

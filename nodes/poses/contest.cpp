@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kSame = 0.5;  // of the smaller one's points, from which on both claim the same
 /// Of what one explains over what the other does, in the odds. Of 370 contests in simulated and real
-/// scans of 8 and 21 models, odds alone decide all but three of those between a right and a wrong pose;
-/// from 4 to 8 this mends one of them and decides none wrongly.
+/// scans of 8 and 21 models, odds alone decide all but three of those between a right and a wrong
+/// pose; from 4 to 8 this mends one of them and decides none wrongly.
 constexpr double kTrustInExtent = 6;
 constexpr double kLeastDoubt = 1e-4;  // no confidence is so exact that it tells apart less
 

@@ -9,9 +9,9 @@
 // the sensor measured, free space included (poses/measure_fit.cpp), on how exactly the pose lies
 // there, as instances found before do (poses/usual_residual.hpp), and on how many of the features
 // that it explains voted for it (poses/score.hpp). Cost: per object `candidates` glances, 160
-// neighbourhood queries and sketches, 40 coarse ICPs and some 10 looks, and again for what was found, until it is
-// found no more; per instance four ICPs, as many of twins, and one of ten thousand points. A scan
-// without votes gives no detections; that is no failure. Points without a normal are never matched.
+// neighbourhood queries and sketches, 40 coarse ICPs and some 10 looks, and again for what was
+// found, until it is found no more; per instance four ICPs, as many of twins, and one of ten
+// thousand points. A scan without votes gives no detections; that is no failure. Points without a normal are never matched.
 // Known limit: an object of which one flat side alone is seen scores low.
 //
 // Two nodes: segment_objects for single scans, and segment_new_objects for a stream, in which what

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/oriented_columns.hpp"
+
+namespace posevote::geometry {
+
+/// The normals of a cloud in the order of its grid, as vector kernels want them. Refers to the grid.
+class GridNormals {
+ public:
+  /// Those of which is_usable(row) is false are not numbers.
+  template <class IsUsable>
+  GridNormals(const PointGrid& grid, const PointMatrix& normals, const IsUsable& is_usable)
+      : grid_(grid) {
+    const auto count = static_cast<Eigen::Index>(grid.size());
+    normals_.setZero(count + static_cast<Eigen::Index>(kGridPadding), 3);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::uint32_t point = grid.indices()[static_cast<std::size_t>(i)];
+      normals_.row(i) = normals.row(point);
+      if (!is_usable(point)) normals_.row(i).setConstant(std::nanf(""));
+    }
+  }
+
+  OrientedColumns columns() const {
+    return {grid_.x(),
+            grid_.y(),
+            grid_.z(),
+            normals_.col(0).data(),
+            normals_.col(1).data(),
+            normals_.col(2).data()};
+  }
+
+ private:
+  const PointGrid& grid_;
+  PointMatrix normals_;
+};
+
+}  // namespace posevote::geometry
