@@ -37,6 +37,10 @@ class PairTable {
   std::span<const PairEnd> operator[](std::uint32_t bin) const {
     return std::span(ends_).subspan(starts_[bin], starts_[bin + 1] - starts_[bin]);
   }
+  /// Has the memory fetch what operator[] reads of a bin, and then, what lies there.
+  void fetch_start(std::uint32_t bin) const { __builtin_prefetch(&starts_[bin]); }
+  void fetch_pairs(std::uint32_t bin) const { __builtin_prefetch(ends_.data() + starts_[bin]); }
+
   /// Calls visit(end) for each of a bin whose turn is at most `most` off, of 256 in a circle;
   /// `most` < 128.
   template <class Visit>

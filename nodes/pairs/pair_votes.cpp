@@ -12,28 +12,40 @@ namespace {
 
 /// Turns that differ by less are one where a frame leaves none open: 20 deg, in 256ths.
 constexpr int kSameTurn = 14;
+constexpr std::size_t kAhead = 8;          // pairs, between a fetch and what it is for
 constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
 
 }  // namespace
 
+// Bins are all over the memory, so they are fetched before they are needed: their starts first, then
+// the pairs that lie there.
 template <class Visit>
 void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
                               const Visit& visit) {
   for (const std::uint32_t bin : touched_) seen_[bin] = 0;
   touched_.clear();
   seen_.resize(std::max(seen_.size(), table.bins()));
+  pairs_.clear();
   scene.for_each_within(at.point, table.reach(), [&](const PairScene::Point& other) {
     const Eigen::Vector3f offset = other.point - at.point;
     const std::uint32_t bin = pair_bin(at.normal, other.normal, offset, table.step());
-    if (bin >= table.bins()) return;
-    const std::uint8_t turn = at.turn_to(offset);
+    if (bin < table.bins()) pairs_.push_back({bin, at.turn_to(offset)});
+  });
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (i + 2 * kAhead < pairs_.size()) {
+      const std::uint32_t bin = pairs_[i + 2 * kAhead].bin;
+      __builtin_prefetch(&seen_[bin], 1);
+      table.fetch_start(bin);
+    }
+    if (i + kAhead < pairs_.size()) table.fetch_pairs(pairs_[i + kAhead].bin);
+    const auto [bin, turn] = pairs_[i];
     // Many points of a plane make the same pair: it counts once for each turn (Vidal et al. 2018).
     const std::uint32_t flag = 1U << (turn / (256 / kTurns));
-    if (seen_[bin] & flag) return;
+    if (seen_[bin] & flag) continue;
     if (seen_[bin] == 0) touched_.push_back(bin);
     seen_[bin] |= flag;
     visit(bin, turn);
-  });
+  }
 }
 
 /// The best turn of one point: its count and its neighbours', whose balance tells where between them

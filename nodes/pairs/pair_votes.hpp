@@ -71,6 +71,12 @@ class PairVotes {
   std::vector<PairPeak> peaks_of_points(double ratio) const;
   PairPeak peak_of(std::uint16_t point) const;
 
+  struct Pair {
+    std::uint32_t bin = 0;
+    std::uint8_t turn = 0;
+  };
+
+  std::vector<Pair> pairs_;             ///< of the scan, about the point
   std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins
