@@ -34,6 +34,11 @@ std::int64_t floor_of(double value) {
   return whole - static_cast<std::int64_t>(value < static_cast<double>(whole));
 }
 
+/// The cube's place along an axis, by the coordinate there in edges.
+std::int64_t cube_at(double in_edges) {
+  return floor_of(std::clamp(in_edges, -kFarthest, kFarthest));
+}
+
 /// The number of a cube in its block; those along z follow one another.
 std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto in_block = [](std::int64_t place) { return place & (kSide - 1); };
@@ -79,10 +84,8 @@ std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
 }
 
 NearestIndex::Cube NearestIndex::cube_of(const Eigen::Vector3d& point) const {
-  const auto place = [this, &point](int axis) {
-    return floor_of(std::clamp(point[axis] * per_edge_, -kFarthest, kFarthest));
-  };
-  return {place(0), place(1), place(2)};
+  return {cube_at(point[0] * per_edge_), cube_at(point[1] * per_edge_),
+          cube_at(point[2] * per_edge_)};
 }
 
 /// That of a block, or the free one where it belongs.
@@ -113,7 +116,11 @@ class NearestIndex::Search {
  public:
   Search(const NearestIndex& index, const Eigen::Vector3f& center, float distance,
          const std::vector<char>& hidden)
-      : index_(index), hidden_(hidden), center_(center), farthest_(distance * distance) {
+      : index_(index),
+        hidden_(hidden),
+        center_(center),
+        in_edges_(index.per_edge_ * center.cast<double>()),
+        farthest_(distance * distance) {
     bound(static_cast<double>(distance));
   }
 
@@ -126,6 +133,7 @@ class NearestIndex::Search {
       return best_;
     }
     look_around_center();
+    if (best_ && low_ == high_) return best_;  // in that cube alone
     for (std::int64_t x = low_[0] >> kShift; x <= high_[0] >> kShift; ++x)
       for (std::int64_t y = low_[1] >> kShift; y <= high_[1] >> kShift; ++y)
         for (std::int64_t z = low_[2] >> kShift; z <= high_[2] >> kShift; ++z) look_in(x, y, z);
@@ -135,14 +143,18 @@ class NearestIndex::Search {
  private:
   /// To the cubes that the ball meets, and a trifle more: only the distance decides who is in.
   void bound(double distance) {
-    const double reach = 1.000001 * distance;
-    low_ = index_.cube_of(center_.cast<double>() - Eigen::Vector3d::Constant(reach));
-    high_ = index_.cube_of(center_.cast<double>() + Eigen::Vector3d::Constant(reach));
+    const double reach = 1.000001 * distance * index_.per_edge_;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double middle = in_edges_[static_cast<Eigen::Index>(axis)];
+      low_[axis] = cube_at(middle - reach);
+      high_[axis] = cube_at(middle + reach);
+    }
   }
 
   /// What is in the cube of the place itself spares most of those around.
   void look_around_center() {
-    const auto [x, y, z] = index_.cube_of(center_.cast<double>());
+    const std::int64_t x = cube_at(in_edges_.x()), y = cube_at(in_edges_.y()),
+                       z = cube_at(in_edges_.z());
     const std::uint32_t block = index_.find(key_of(x >> kShift, y >> kShift, z >> kShift));
     if (block == kNone) return;
     const std::uint32_t* begin =
@@ -180,6 +192,7 @@ class NearestIndex::Search {
   const NearestIndex& index_;
   const std::vector<char>& hidden_;
   Eigen::Vector3f center_;
+  Eigen::Vector3d in_edges_;
   Cube low_, high_;
   std::optional<Neighbour> best_;
   float farthest_;  ///< squared distance of what is still looked for
