@@ -34,9 +34,12 @@ std::int64_t floor_of(double value) {
   return whole - static_cast<std::int64_t>(value < static_cast<double>(whole));
 }
 
-/// The cube's place along an axis, by the coordinate there in edges.
-std::int64_t cube_at(double in_edges) {
-  return floor_of(std::clamp(in_edges, -kFarthest, kFarthest));
+/// The cube that holds a place, by its coordinates in edges.
+inline std::array<std::int64_t, 3> cube_of(const Eigen::Vector3d& in_edges) {
+  const auto place = [&in_edges](Eigen::Index axis) {
+    return floor_of(std::clamp(in_edges[axis], -kFarthest, kFarthest));
+  };
+  return {place(0), place(1), place(2)};
 }
 
 /// The number of a cube in its block; those along z follow one another.
@@ -76,16 +79,11 @@ std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
   std::vector<std::size_t> cubes;
   cubes.reserve(rows.size());
   for (const std::uint32_t i : rows) {
-    const auto [x, y, z] = cube_of(points.row(i).transpose().cast<double>());
+    const auto [x, y, z] = cube_of(per_edge_ * points.row(i).transpose().cast<double>());
     const std::uint32_t block = claim(key_of(x >> kShift, y >> kShift, z >> kShift));
     cubes.push_back(std::size_t{block} * kCubesPerBlock + place_in_block(x, y, z));
   }
   return cubes;
-}
-
-NearestIndex::Cube NearestIndex::cube_of(const Eigen::Vector3d& point) const {
-  return {cube_at(point[0] * per_edge_), cube_at(point[1] * per_edge_),
-          cube_at(point[2] * per_edge_)};
 }
 
 /// That of a block, or the free one where it belongs.
@@ -144,17 +142,13 @@ class NearestIndex::Search {
   /// To the cubes that the ball meets, and a trifle more: only the distance decides who is in.
   void bound(double distance) {
     const double reach = 1.000001 * distance * index_.per_edge_;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double middle = in_edges_[static_cast<Eigen::Index>(axis)];
-      low_[axis] = cube_at(middle - reach);
-      high_[axis] = cube_at(middle + reach);
-    }
+    low_ = cube_of(in_edges_ - Eigen::Vector3d::Constant(reach));
+    high_ = cube_of(in_edges_ + Eigen::Vector3d::Constant(reach));
   }
 
   /// What is in the cube of the place itself spares most of those around.
   void look_around_center() {
-    const std::int64_t x = cube_at(in_edges_.x()), y = cube_at(in_edges_.y()),
-                       z = cube_at(in_edges_.z());
+    const auto [x, y, z] = cube_of(in_edges_);
     const std::uint32_t block = index_.find(key_of(x >> kShift, y >> kShift, z >> kShift));
     if (block == kNone) return;
     const std::uint32_t* begin =

@@ -51,7 +51,6 @@ class NearestIndex {
 
   std::vector<std::size_t> number_cubes(const PointMatrix& points,
                                         const std::vector<std::uint32_t>& rows);
-  Cube cube_of(const Eigen::Vector3d& point) const;
   std::size_t slot_of(std::uint64_t block_key) const;
   std::uint32_t claim(std::uint64_t block_key);
   std::uint32_t find(std::uint64_t block_key) const;

@@ -11,8 +11,8 @@
 // that it explains voted for it (poses/score.hpp). Cost: per object `candidates` glances, 160
 // neighbourhood queries and sketches, 40 coarse ICPs and some 10 looks, and again for what was
 // found, until it is found no more; per instance four ICPs, as many of twins, and one of ten
-// thousand points. A scan without votes gives no detections; that is no failure. Points without a normal are never matched.
-// Known limit: an object of which one flat side alone is seen scores low.
+// thousand points. A scan without votes gives no detections; that is no failure. Points without a
+// normal are never matched. Known limit: an object of which one flat side alone is seen scores low.
 //
 // Two nodes: segment_objects for single scans, and segment_new_objects for a stream, in which what
 // the frame before answered needs no search (look_again). The latter also hands on to the next frame.
