@@ -17,7 +17,6 @@ constexpr float kStep = 0.5F;        // along a face
 constexpr float kRim = 3;            // the end of a face is at most so far from a point at its rim
 constexpr float kLookBeyond = 2.5F;  // an end, for what is there
 constexpr float kLeastDrop = 2;      // behind an end
-constexpr float kLeastVariance = 0.05F;  // x resolution^2: no scan's planes hold better
 
 constexpr std::size_t kTried = 4;  // places, for each end that is wanted: few are at a rim
 
@@ -136,11 +135,7 @@ std::vector<IcpPair> FaceEnds::pairs(const Eigen::Isometry3d& T_scene_model,
   graph::parallel_for(ends_.size(), 32, [&](std::size_t k) {
     pairs[k] = pair_of(ends_[k], T_scene_model.cast<float>());
   });
-  std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
-  const double resolution = static_cast<double>(resolution_);
-  const double share =
-      std::max(variance, kLeastVariance * resolution * resolution) / (spread_ * spread_);
-  for (IcpPair& pair : pairs) pair.weight *= std::min(1.0, share);
+  weigh_beside_planes(pairs, variance, spread_, static_cast<double>(resolution_));
   return pairs;
 }
 

@@ -8,6 +8,8 @@
 namespace posevote::geometry {
 namespace {
 
+constexpr double kLeastVariance = 0.05;  // x resolution^2: no scan's planes hold better
+
 IcpPair find_partner(const OrientedPoint& p, const ScanSurface& scan, float distance) {
   IcpPair pair;
   if (!scan.faces_sensor(p)) return pair;
@@ -38,6 +40,14 @@ std::vector<IcpPair> find_icp_pairs(const Cloud& model, const ScanSurface& scan,
   });
   std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
   return pairs;
+}
+
+void weigh_beside_planes(std::vector<IcpPair>& pairs, double variance, double spread,
+                         double resolution) {
+  std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
+  const double share =
+      std::max(variance, kLeastVariance * resolution * resolution) / (spread * spread);
+  for (IcpPair& pair : pairs) pair.weight *= std::min(1.0, share);
 }
 
 }  // namespace posevote::geometry

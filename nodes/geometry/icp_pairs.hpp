@@ -26,6 +26,11 @@ std::vector<IcpPair> find_icp_pairs(const Cloud& model, const ScanSurface& scan,
                                     const Eigen::Isometry3f& T_scene_model, float distance,
                                     Eigen::Index most);
 
+/// Leaves out pairs of no weight, and makes the weights of others, which are off by `spread` [m], one
+/// deviation, those of points on planes, whose residuals have this variance [m^2].
+void weigh_beside_planes(std::vector<IcpPair>& pairs, double variance, double spread,
+                         double resolution);
+
 /// Of a residual, if they were independent [m^2]. For IcpPair and whatever else has a weight and a
 /// residual.
 template <class Pair>

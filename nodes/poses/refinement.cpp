@@ -2,8 +2,11 @@
 #include "nodes/poses/refinement.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
+#include "nodes/geometry/contour_pairs.hpp"
 #include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/color_turns.hpp"
 #include "nodes/poses/confidence.hpp"
@@ -12,7 +15,8 @@
 namespace posevote::poses {
 namespace {
 
-enum Kind { kFirstSteps, kFull, kPolish };
+/// Steps of refinement, and the same with contours.
+enum Kind { kFirstSteps, kFull, kPolish, kFullByContour, kPolishByContour };
 
 void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
              const geometry::IcpParams& params, const geometry::MorePairs& more = {}) {
@@ -40,6 +44,56 @@ const std::vector<geometry::FaceEnd>& face_ends(const Sought& sought) {
   return *known;
 }
 
+std::vector<geometry::IcpPair> pairs_of_ends(const Sought& sought, const Eigen::Isometry3d& pose,
+                                             double variance) {
+  return geometry::FaceEnds(sought.model.cloud, face_ends(sought), sought.scan.surface,
+                            sought.scan.view, sought.scan.resolution, sought.terms.edges)
+      .pairs(pose, variance);
+}
+
+std::vector<geometry::IcpPair> pairs_of_contour(const Sought& sought, const Eigen::Isometry3d& pose,
+                                                double variance) {
+  return geometry::contour_pairs(sought.model.cloud, sought.scan.surface, sought.scan.view, pose,
+                                 sought.scan.resolution, variance, sought.terms.contour);
+}
+
+geometry::IcpParams steps_from(const Sought& sought, float distance, int points, double still) {
+  return {sought.params.icp_iterations,
+          distance,
+          sought.params.tolerance,
+          points,
+          still,
+          sought.terms.icp};
+}
+
+void judge_refined(const Sought& sought, Candidate& candidate, const Closeness& look) {
+  turn_by_color(sought, candidate);
+  judge(sought, candidate, look);
+  believe(sought, candidate);
+}
+
+/// Whether free space speaks against a pose that may be right nevertheless.
+bool may_gain_by_contour(const Sought& sought, const Candidate& candidate) {
+  constexpr double kFew = 0.02;       // of the points that take a side, seen through
+  constexpr double kHopeless = 0.01;  // a confidence that a contour does not mend
+  const auto sides = static_cast<double>(candidate.fit.facing - candidate.fit.hidden);
+  return sought.params.refine && sought.terms.contour.points > 0 &&
+         candidate.confidence > kHopeless &&
+         static_cast<double>(candidate.fit.contradicted) > kFew * sides;
+}
+
+/// Kept where it makes the pose more probable: beside what touches the object, or is in its place,
+/// contours mislead.
+void try_contour(const Sought& sought, Candidate& candidate, Kind kind,
+                 const geometry::IcpParams& params, const geometry::MorePairs& more,
+                 const Closeness& look) {
+  if (!may_gain_by_contour(sought, candidate)) return;
+  Candidate moved = candidate;
+  run_icp(sought, moved, kind, params, more);
+  judge_refined(sought, moved, look);
+  if (moved.confidence > candidate.confidence) candidate = std::move(moved);
+}
+
 }  // namespace
 
 void take_first_steps(const Sought& sought, Candidate& candidate) {
@@ -51,29 +105,37 @@ void take_first_steps(const Sought& sought, Candidate& candidate) {
 
 void refine(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  if (!candidate.is_refined)
-    run_icp(sought, candidate, kFull,
-            {sought.params.icp_iterations, sought.params.icp_distance, sought.params.tolerance,
-             terms.full_points, terms.full_still, sought.terms.icp});
-  candidate.is_refined = true;
-  turn_by_color(sought, candidate);
-  judge(sought, candidate, {{sought.terms.schedule.close_points, true}});
-  believe(sought, candidate);
+  const Closeness look{{sought.terms.schedule.close_points, true}};
+  const auto steps = [&](float distance) {
+    return steps_from(sought, distance, terms.full_points, terms.full_still);
+  };
+  const bool is_new = !std::exchange(candidate.is_refined, true);
+  if (is_new) run_icp(sought, candidate, kFull, steps(sought.params.icp_distance));
+  judge_refined(sought, candidate, look);
+  if (!is_new) return;
+  try_contour(
+      sought, candidate, kFullByContour, steps(sought.params.tolerance),
+      [&](const auto& pose, double variance) { return pairs_of_contour(sought, pose, variance); },
+      look);
 }
 
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  run_icp(sought, candidate, kPolish,
-          {sought.params.icp_iterations, sought.params.tolerance, sought.params.tolerance,
-           terms.polish_points, terms.polish_still, sought.terms.icp},
-          [&](const auto& pose, double variance) {
-            return geometry::FaceEnds(sought.model.cloud, face_ends(sought), sought.scan.surface,
-                                      sought.scan.view, sought.scan.resolution, sought.terms.edges)
-                .pairs(pose, variance);
-          });
-  turn_by_color(sought, candidate);
-  judge(sought, candidate, kAllPoints);
-  believe(sought, candidate);
+  const geometry::IcpParams steps =
+      steps_from(sought, sought.params.tolerance, terms.polish_points, terms.polish_still);
+  const auto ends = [&](const Eigen::Isometry3d& pose, double variance) {
+    return pairs_of_ends(sought, pose, variance);
+  };
+  run_icp(sought, candidate, kPolish, steps, ends);
+  judge_refined(sought, candidate, kAllPoints);
+  try_contour(
+      sought, candidate, kPolishByContour, steps,
+      [&](const auto& pose, double variance) {
+        auto pairs = ends(pose, variance);
+        std::ranges::copy(pairs_of_contour(sought, pose, variance), std::back_inserter(pairs));
+        return pairs;
+      },
+      kAllPoints);
 }
 
 }  // namespace posevote::poses

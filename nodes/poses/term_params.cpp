@@ -239,6 +239,23 @@ void add_edges(Node& node) {
        greater_than(0));
 }
 
+void add_contour(Node& node) {
+  using G = geometry::ContourTerms;
+  const Register<G> term{node, &Terms::contour};
+  term("contour_points", &G::points, "points",
+       "Of the model, among which those at its contour are found, about: they hold a pose against "
+       "which free space speaks, where that makes it more probable. 0: none.",
+       in_range(0, 1000000));
+  term("contour_reach", &G::reach, "x resolution",
+       "How far from the model's contour the scan's may be: farther, and it is that of something "
+       "else.",
+       in_range(0.5, 100));
+  term("contour_spread", &G::spread, "x resolution",
+       "By which a contour is off, one deviation: the less, the more contours count against "
+       "planes.",
+       greater_than(0));
+}
+
 void add_view(Node& node) {
   using G = geometry::ViewTerms;
   const Register<G> term{node, &Terms::view};
@@ -279,6 +296,7 @@ void add_terms(graph::Registration<SegmentParams>& node) {
   add_surface(node);
   add_icp(node);
   add_edges(node);
+  add_contour(node);
   add_view(node);
 }
 

@@ -7,6 +7,7 @@
 
 #include "nodes/data/clues.hpp"
 #include "nodes/density/refine_mode.hpp"
+#include "nodes/geometry/contour_pairs.hpp"
 #include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/range_view.hpp"
@@ -109,6 +110,7 @@ struct Terms {
   density::ShiftTerms shift;
   geometry::IcpTerms icp;
   geometry::EdgeTerms edges;
+  geometry::ContourTerms contour;
   geometry::SurfaceTerms surface;
   geometry::ViewTerms view;
 };
