@@ -243,16 +243,12 @@ void add_contour(Node& node) {
   using G = geometry::ContourTerms;
   const Register<G> term{node, &Terms::contour};
   term("contour_points", &G::points, "points",
-       "Of the model, among which those at its contour are found, about: they hold a pose against "
-       "which free space speaks, where that makes it more probable. 0: none.",
+       "Of the model, among which its contour is sought, to hold what free space speaks against.",
        in_range(0, 1000000));
   term("contour_reach", &G::reach, "x resolution",
-       "How far from the model's contour the scan's may be: farther, and it is that of something "
-       "else.",
-       in_range(0.5, 100));
+       "How far off the scan's contour may be: farther, and it is another's.", in_range(0.5, 100));
   term("contour_spread", &G::spread, "x resolution",
-       "By which a contour is off, one deviation: the less, the more contours count against "
-       "planes.",
+       "By which a contour is off, one deviation: the less, the more it counts against planes.",
        greater_than(0));
 }
 
