@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/contour_pairs.hpp"
 
+#include <algorithm>
 #include <optional>
-
-#include "graph/parallel.hpp"
 
 namespace posevote::geometry {
 namespace {
@@ -12,7 +11,8 @@ constexpr float kGrazing = 0.2F;  // cosine: a contour is where a surface is see
 // x resolution.
 constexpr float kStep = 0.5F;  // across the line of sight
 constexpr float kDrop = 2;     // behind a contour, at least
-constexpr float kBulge = 3;    // by so many steps a surface is nearer, a step inside its contour
+// By so much more an object's own surface may be nearer than its contour than it is inside of it.
+constexpr float kBulge = 3;
 
 /// What the sensor saw in the direction of a place.
 enum class Seen { kOutside, kNothing, kBehind, kSurface, kBefore };
@@ -71,22 +71,22 @@ std::vector<IcpPair> contour_pairs(const Cloud& model, const ScanSurface& scan,
   if (terms.points == 0 || !view.usable()) return {};
   const float reach = static_cast<float>(terms.reach) * resolution;
   const Contour contour(view, scan.viewpoint(), resolution, reach);
-  const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::Index stride = model.points.rows() / terms.points + 1;
-  std::vector<IcpPair> pairs(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
-  graph::parallel_for(pairs.size(), 256, [&](std::size_t k) {
-    const Eigen::Index row = static_cast<Eigen::Index>(k) * stride;
-    const OrientedPoint at = posed_point(model, row, T);
+  const auto pair_of = [&](const OrientedPoint& at) {
+    IcpPair pair;
     const Eigen::Vector3f ray = (at.point - scan.viewpoint()).normalized();
     const float facing = -at.normal.dot(ray);
-    if (!(facing >= 0 && facing < kGrazing)) return;
+    if (!(facing >= 0 && facing < kGrazing)) return pair;
     const Eigen::Vector3f outward = (at.normal + facing * ray).normalized();
-    const auto off = contour.offset(at.point, outward);
-    if (!off) return;
-    const auto inside = static_cast<double>(1 - *off * *off / (reach * reach));
-    pairs[k] = {row, at.point.cast<double>(), outward.cast<double>(), -static_cast<double>(*off),
-                inside > 0 ? inside * inside : 0};
-  });
+    const std::optional<float> off = contour.offset(at.point, outward);
+    if (!off) return pair;
+    pair.point = at.point.cast<double>();
+    pair.normal = outward.cast<double>();
+    pair.residual = -static_cast<double>(*off);
+    pair.weight = biweight(static_cast<double>(1 - *off * *off / (reach * reach)));
+    return pair;
+  };
+  std::vector<IcpPair> pairs =
+      strewn_pairs(model, T_scene_model.cast<float>(), terms.points, pair_of);
   const double spread = terms.spread * static_cast<double>(resolution);
   weigh_beside_planes(pairs, variance, spread, static_cast<double>(resolution));
   return pairs;

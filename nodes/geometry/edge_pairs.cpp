@@ -118,14 +118,14 @@ IcpPair FaceEnds::pair_of(const FaceEnd& end, const Eigen::Isometry3f& T_scene_m
     do off -= step_;
     while (off > -reach_ && !goes_on({at.point + off * direction, at.normal}));
   }
-  const float inside = 1 - off * off / (reach_ * reach_);
-  if (!(inside > 0) || !is_free(at.point + (off + kLookBeyond * resolution_) * direction))
+  const double weight = biweight(1 - off * off / (reach_ * reach_));
+  if (!(weight > 0) || !is_free(at.point + (off + kLookBeyond * resolution_) * direction))
     return pair;
   pair.row = end.row;
   pair.point = at.point.cast<double>();
   pair.normal = direction.cast<double>();
   pair.residual = -static_cast<double>(off);
-  pair.weight = static_cast<double>(inside * inside);
+  pair.weight = weight;
   return pair;
 }
 
@@ -135,6 +135,7 @@ std::vector<IcpPair> FaceEnds::pairs(const Eigen::Isometry3d& T_scene_model,
   graph::parallel_for(ends_.size(), 32, [&](std::size_t k) {
     pairs[k] = pair_of(ends_[k], T_scene_model.cast<float>());
   });
+  std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
   weigh_beside_planes(pairs, variance, spread_, static_cast<double>(resolution_));
   return pairs;
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "graph/parallel.hpp"
 #include "nodes/data/cloud.hpp"
 #include "nodes/geometry/scan_surface.hpp"
 
@@ -20,14 +21,37 @@ struct IcpPair {
   double weight = 0;                                 ///< Tukey's biweight of `distance`, > 0
 };
 
+/// Tukey's biweight. `inside`: 1 less the square of what is off over what is looked at.
+template <class Number>
+double biweight(Number inside) {
+  return static_cast<double>(inside > 0 ? inside * inside : 0);
+}
+
+/// What find(point) makes of about `most` points of a posed model, those of no weight left out; safe
+/// to call from many threads. Points with a fixed stride: voxel order runs through space, so that is
+/// even.
+template <class Find>
+std::vector<IcpPair> strewn_pairs(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
+                                  Eigen::Index most, const Find& find) {
+  const Eigen::Index stride = model.points.rows() / most + 1;
+  std::vector<IcpPair> pairs(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
+  graph::parallel_for(pairs.size(), 256, [&](std::size_t i) {
+    const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
+    pairs[i] = find(posed_point(model, row, T_scene_model));
+    pairs[i].row = row;
+  });
+  std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
+  return pairs;
+}
+
 /// Of about `most` points of the model, evenly strewn, those that face the sensor and have a scan
 /// point that looks their way within `distance` [m].
 std::vector<IcpPair> find_icp_pairs(const Cloud& model, const ScanSurface& scan,
                                     const Eigen::Isometry3f& T_scene_model, float distance,
                                     Eigen::Index most);
 
-/// Leaves out pairs of no weight, and makes the weights of others, which are off by `spread` [m], one
-/// deviation, those of points on planes, whose residuals have this variance [m^2].
+/// Makes the weights of pairs that are off by `spread` [m], one deviation, those of points on planes,
+/// whose residuals have this variance [m^2]: less, by how much more exactly planes hold.
 void weigh_beside_planes(std::vector<IcpPair>& pairs, double variance, double spread,
                          double resolution);
 

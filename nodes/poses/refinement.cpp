@@ -44,17 +44,27 @@ const std::vector<geometry::FaceEnd>& face_ends(const Sought& sought) {
   return *known;
 }
 
-std::vector<geometry::IcpPair> pairs_of_ends(const Sought& sought, const Eigen::Isometry3d& pose,
-                                             double variance) {
-  return geometry::FaceEnds(sought.model.cloud, face_ends(sought), sought.scan.surface,
-                            sought.scan.view, sought.scan.resolution, sought.terms.edges)
-      .pairs(pose, variance);
+geometry::MorePairs ends_of(const Sought& sought) {
+  return [&sought](const Eigen::Isometry3d& pose, double variance) {
+    return geometry::FaceEnds(sought.model.cloud, face_ends(sought), sought.scan.surface,
+                              sought.scan.view, sought.scan.resolution, sought.terms.edges)
+        .pairs(pose, variance);
+  };
 }
 
-std::vector<geometry::IcpPair> pairs_of_contour(const Sought& sought, const Eigen::Isometry3d& pose,
-                                                double variance) {
-  return geometry::contour_pairs(sought.model.cloud, sought.scan.surface, sought.scan.view, pose,
-                                 sought.scan.resolution, variance, sought.terms.contour);
+geometry::MorePairs contour_of(const Sought& sought) {
+  return [&sought](const Eigen::Isometry3d& pose, double variance) {
+    return geometry::contour_pairs(sought.model.cloud, sought.scan.surface, sought.scan.view, pose,
+                                   sought.scan.resolution, variance, sought.terms.contour);
+  };
+}
+
+geometry::MorePairs both(geometry::MorePairs one, geometry::MorePairs other) {
+  return [one = std::move(one), other = std::move(other)](const auto& pose, double variance) {
+    std::vector<geometry::IcpPair> pairs = one(pose, variance);
+    std::ranges::copy(other(pose, variance), std::back_inserter(pairs));
+    return pairs;
+  };
 }
 
 geometry::IcpParams steps_from(const Sought& sought, float distance, int points, double still) {
@@ -113,29 +123,18 @@ void refine(const Sought& sought, Candidate& candidate) {
   if (is_new) run_icp(sought, candidate, kFull, steps(sought.params.icp_distance));
   judge_refined(sought, candidate, look);
   if (!is_new) return;
-  try_contour(
-      sought, candidate, kFullByContour, steps(sought.params.tolerance),
-      [&](const auto& pose, double variance) { return pairs_of_contour(sought, pose, variance); },
-      look);
+  try_contour(sought, candidate, kFullByContour, steps(sought.params.tolerance), contour_of(sought),
+              look);
 }
 
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   const geometry::IcpParams steps =
       steps_from(sought, sought.params.tolerance, terms.polish_points, terms.polish_still);
-  const auto ends = [&](const Eigen::Isometry3d& pose, double variance) {
-    return pairs_of_ends(sought, pose, variance);
-  };
-  run_icp(sought, candidate, kPolish, steps, ends);
+  run_icp(sought, candidate, kPolish, steps, ends_of(sought));
   judge_refined(sought, candidate, kAllPoints);
-  try_contour(
-      sought, candidate, kPolishByContour, steps,
-      [&](const auto& pose, double variance) {
-        auto pairs = ends(pose, variance);
-        std::ranges::copy(pairs_of_contour(sought, pose, variance), std::back_inserter(pairs));
-        return pairs;
-      },
-      kAllPoints);
+  try_contour(sought, candidate, kPolishByContour, steps, both(ends_of(sought), contour_of(sought)),
+              kAllPoints);
 }
 
 }  // namespace posevote::poses

@@ -12,7 +12,7 @@ namespace posevote::poses {
 void take_first_steps(const Sought& sought, Candidate& candidate);
 
 /// Near enough to choose by, and judged closely. Moves it once only: what is taken out of the scan
-/// later moves no pose.
+/// later moves no pose. This and the next try its contour, too, where free space speaks against it.
 void refine(const Sought& sought, Candidate& candidate);
 
 /// As exact as the scan allows, and judged by all points, for the pose that is chosen.

@@ -243,7 +243,7 @@ void add_contour(Node& node) {
   using G = geometry::ContourTerms;
   const Register<G> term{node, &Terms::contour};
   term("contour_points", &G::points, "points",
-       "Of the model, among which its contour is sought, to hold what free space speaks against.",
+       "Of the model, among which its contour is, which moves what was seen through. 0: none.",
        in_range(0, 1000000));
   term("contour_reach", &G::reach, "x resolution",
        "How far off the scan's contour may be: farther, and it is another's.", in_range(0.5, 100));

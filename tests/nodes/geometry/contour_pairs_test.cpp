@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nodes/geometry/icp.hpp"
+#include "tests/support/box_cloud.hpp"
 
 using namespace posevote;
 
@@ -15,41 +15,39 @@ constexpr float kStep = 0.002F;
 constexpr float kRadius = 0.033F, kHalf = 0.05F;  // of a can that stands upright
 constexpr float kFar = 0.8F, kWall = 1.1F;        // from the sensor in the origin
 
-void add(Cloud& cloud, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
-  const Eigen::Index rows = cloud.points.rows();
-  for (PointMatrix* matrix : {&cloud.points, &cloud.normals})
-    matrix->conservativeResize(rows + 1, 3);
-  cloud.points.row(rows) = point;
-  cloud.normals.row(rows) = normal;
-}
+/// What a scan or a model is made of.
+struct Surfaces {
+  std::vector<Eigen::RowVector3f> points, normals;
 
-/// The mantle about `center`, as far as its normals are within `most` [rad] of the way to the sensor.
-void add_mantle(Cloud& cloud, const Eigen::Vector3f& center, float most) {
-  for (float angle = -most; angle <= most; angle += kStep / kRadius)
-    for (float y = -kHalf; y <= kHalf; y += kStep) {
-      const Eigen::Vector3f normal(std::sin(angle), 0, -std::cos(angle));
-      add(cloud, center + kRadius * normal + y * Eigen::Vector3f::UnitY(), normal);
-    }
-}
-
-/// A plane at depth z that looks at the sensor, but for what stands before it between two columns.
-void add_wall(Cloud& cloud, float z, float width, const Eigen::Vector2f& hidden) {
-  for (float x = -width; x <= width; x += kStep)
-    for (float y = -0.1F; y <= 0.1F; y += kStep)
-      if (x < hidden.x() || x > hidden.y()) add(cloud, {x, y, z}, {0, 0, -1});
-}
+  /// The mantle at depth z, as far as its normals are within `most` [rad] of the way to the sensor.
+  Surfaces& mantle(float z, float most) {
+    for (float angle = -most; angle <= most; angle += kStep / kRadius)
+      for (float y = -kHalf; y <= kHalf; y += kStep) {
+        const Eigen::RowVector3f normal(std::sin(angle), 0, -std::cos(angle));
+        points.emplace_back(kRadius * normal + Eigen::RowVector3f(0, y, z));
+        normals.push_back(normal);
+      }
+    return *this;
+  }
+  /// A plane at depth z that looks at the sensor, but for a slot in the middle.
+  Surfaces& wall(float z, float half_width, float half_slot) {
+    const float middle = (half_slot + half_width) / 2, width = half_width - half_slot;
+    for (const float x : {-middle, middle})
+      test::add_rectangle(points, normals, {x, 0, z}, {width, 0, 0}, {0, -0.2F, 0}, kStep);
+    return *this;
+  }
+  Cloud cloud() const { return geometry::cloud_of(points, normals); }
+};
 
 /// A can before a wall, of which the sensor sees the front 35 degrees either way, and nothing on.
 struct Can {
-  Cloud model, scan;
+  Cloud model = Surfaces().mantle(0, std::numbers::pi_v<float>).cloud(), scan;
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
 
   Can() {
-    add_mantle(model, Eigen::Vector3f::Zero(), std::numbers::pi_v<float>);
     truth.translation() << 0, 0, kFar;
-    add_mantle(scan, {0, 0, kFar}, 0.61F);
     const float shadow = kRadius * kWall / kFar + 3 * kStep;  // sensors lose edges
-    add_wall(scan, kWall, 0.2F, {-shadow, shadow});
+    scan = Surfaces().mantle(kFar, 0.61F).wall(kWall, 0.2F, shadow).cloud();
   }
 
   std::vector<geometry::IcpPair> pairs(const Eigen::Isometry3d& pose, int points = 4000) const {
@@ -98,9 +96,7 @@ TEST_CASE("between the last of an object and the first behind it a contour is fr
 
 TEST_CASE("a contour behind something nearer tells nothing", "[segment]") {
   Can can;
-  can.scan = {};
-  add_mantle(can.scan, {0, 0, kFar}, 0.61F);
-  add_wall(can.scan, 0.5F, 0.15F, {-0.01F, 0.01F});  // a board with a slot
+  can.scan = Surfaces().mantle(kFar, 0.61F).wall(0.5F, 0.15F, 0.01F).cloud();
   CHECK(can.pairs(beside(can.truth, 0.01)).empty());
 }
 
