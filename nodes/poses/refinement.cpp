@@ -82,14 +82,14 @@ void judge_refined(const Sought& sought, Candidate& candidate, const Closeness& 
   believe(sought, candidate);
 }
 
-/// Whether free space speaks against a pose that may be right nevertheless.
+/// Whether free space speaks against a pose that may be right nevertheless, and is not sure yet.
 bool may_gain_by_contour(const Sought& sought, const Candidate& candidate) {
-  constexpr double kFew = 0.02;       // of the points that take a side, seen through
-  constexpr double kHopeless = 0.01;  // a confidence that a contour does not mend
+  constexpr double kFew = 0.02;                    // of the points that take a side, seen through
+  constexpr double kHopeless = 0.03, kSure = 0.9;  // confidences that a contour hardly changes
   const auto sides = static_cast<double>(candidate.fit.facing - candidate.fit.hidden);
   return sought.params.refine && sought.terms.contour.points > 0 &&
          candidate.confidence > kHopeless &&
-         static_cast<double>(candidate.fit.contradicted) > kFew * sides;
+         candidate.confidence<kSure&& static_cast<double>(candidate.fit.contradicted)> kFew * sides;
 }
 
 /// Kept where it makes the pose more probable: beside what touches the object, or is in its place,
