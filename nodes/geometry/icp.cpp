@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace posevote::geometry {
@@ -70,6 +71,24 @@ void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& p
   T_scene_model.linear() = rotation.normalized().toRotationMatrix();
 }
 
+/// Steps become shorter as a pose settles. Partners that come and go in turn may keep them at one
+/// length for good.
+class Progress {
+ public:
+  /// Whether one of the last few steps was clearly shorter than all before.
+  bool goes_on(double step) {
+    constexpr double kShorter = 0.8;
+    constexpr int kPatience = 5;
+    waited_ = step < kShorter * shortest_ ? 0 : waited_ + 1;
+    if (waited_ == 0) shortest_ = step;
+    return waited_ < kPatience;
+  }
+
+ private:
+  double shortest_ = std::numeric_limits<double>::infinity();
+  int waited_ = 0;
+};
+
 }  // namespace
 
 Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::Isometry3d& start,
@@ -80,6 +99,7 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
+  Progress progress;
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     std::vector<IcpPair> pairs = find_icp_pairs(model, scan, T_scene_model.cast<float>(),
                                                 static_cast<float>(distance), params.samples);
@@ -93,7 +113,8 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
     if (pass) pass(T_scene_model);
-    if (distance <= end && step.norm() <= params.still * end) break;
+    if (distance <= end && (step.norm() <= params.still * end || !progress.goes_on(step.norm())))
+      break;
     distance = std::max(end, distance * terms.shrink);
   }
   return T_scene_model;

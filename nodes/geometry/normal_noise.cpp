@@ -6,8 +6,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
@@ -15,6 +18,11 @@ namespace {
 
 using Cell = std::array<int, 3>;
 using Normals = std::map<Cell, Eigen::Vector3f>;
+
+struct CubeNormal {
+  Cell cell;
+  Eigen::Vector3f normal;
+};
 
 constexpr std::size_t kFewestPoints = 8;  // of a cube
 constexpr std::size_t kFewestTilts = 20;
@@ -46,16 +54,19 @@ Normals normals_of_cubes(const PointMatrix& points, const std::vector<std::uint3
   Eigen::RowVector3f low = points.row(rows.front());
   for (const std::uint32_t i : rows) low = low.cwiseMin(points.row(i));
   const Voxels voxels = group_by_voxel(points, rows, width);
-  Normals normals;
-  for (std::size_t v = 0; v < voxels.size(); ++v) {
+  std::vector<std::optional<CubeNormal>> found(voxels.size());
+  graph::parallel_for(voxels.size(), 64, [&](std::size_t v) {
     const auto members = voxels[v];
-    if (members.size() < kFewestPoints) continue;
+    if (members.size() < kFewestPoints) return;
     const Eigen::Vector3d mean = voxels.centroid(points, v).transpose();
     const auto normal = normal_of(points, members, mean, viewpoint, static_cast<double>(width));
     const Eigen::Vector3i cell =
         ((mean.cast<float>() - low.transpose()) / width).array().floor().cast<int>();
-    if (normal) normals[{cell.x(), cell.y(), cell.z()}] = *normal;
-  }
+    if (normal) found[v] = {{cell.x(), cell.y(), cell.z()}, *normal};
+  });
+  Normals normals;
+  for (const auto& one : found)
+    if (one) normals[one->cell] = one->normal;
   return normals;
 }
 

@@ -80,7 +80,7 @@ struct ColorTerms {
 struct RefinementTerms {
   int coarse_steps = 4;
   int coarse_points = 100, full_points = 1000, polish_points = 10000;
-  double full_still = 0.02, polish_still = 2e-3;
+  double full_still = 0.02, polish_still = 5e-3;
 };
 
 /// How far it may be off (pose_covariance.hpp). inflation and floor were fitted on simulated scans
