@@ -50,9 +50,8 @@ class Contour {
  private:
   /// `bulge`: by which the object's own surface may be nearer than the place [m].
   Seen seen(const Eigen::Vector3f& place, float bulge) const {
-    if (view_.is_outside(place)) return Seen::kOutside;
     const float measured = view_.measured_range(place);
-    if (measured == 0) return Seen::kNothing;
+    if (measured == 0) return view_.is_outside(place) ? Seen::kOutside : Seen::kNothing;
     const float behind = measured - (place - viewpoint_).norm();
     if (behind > drop_) return Seen::kBehind;
     return behind < -drop_ - bulge ? Seen::kBefore : Seen::kSurface;
