@@ -43,7 +43,7 @@ SharedSteps share_steps(const std::vector<const PairTable*>& tables) {
 }
 
 PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Source>& sources,
-                        const CastOptions& options) {
+                        const PeakOptions& options) {
   std::vector<std::size_t> first{0};  // of each object's references among all
   for (const Source& source : sources)
     first.push_back(first.back() + (source.table ? source.references->size() : 0));
@@ -55,7 +55,7 @@ PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Sourc
       while (i >= first[object + 1]) ++object;
       const Source& source = sources[object];
       peaks[i] = counter.peaks(*source.table, (*source.references)[i - first[object]].frame,
-                               *source.scene, options.poses, options.least_ratio, options.turn);
+                               *source.scene, options);
     }
   });
   PerObject<VoteSet> votes = given;

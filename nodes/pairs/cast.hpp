@@ -37,15 +37,9 @@ struct SharedSteps {
 };
 SharedSteps share_steps(const std::vector<const PairTable*>& tables);
 
-struct CastOptions {
-  std::size_t poses = 1;   ///< votes of a reference, at most
-  double least_ratio = 1;  ///< one with less than this share of the best one's pairs is no vote
-  Turn turn = Turn::kOpen;
-};
-
 /// The votes given, and behind those of each object the ones of its pairs, by reference. `sources`:
 /// one an object.
 PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Source>& sources,
-                        const CastOptions& options);
+                        const PeakOptions& options);
 
 }  // namespace posevote::pairs

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "nodes/color/srgb.hpp"
+#include "nodes/pairs/color_step.hpp"
 #include "nodes/pairs/pair_key.hpp"
 #include "nodes/pairs/rims.hpp"
 #include "nodes/pairs/thin_surface.hpp"
@@ -36,10 +38,17 @@ std::vector<LocalFrame> frames_of(const Cloud& thin) {
 }  // namespace
 
 PairTable::PairTable(const Cloud& cloud, float step, float reach)
-    : PairTable(frames_of(thin_surface(cloud, checked(step, reach))), step, reach) {}
+    : PairTable(thin_surface(cloud, checked(step, reach)), step, reach, 0) {}
 
-PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach)
-    : step_(checked(step, reach)), reach_(reach), points_(std::move(points)) {
+PairTable::PairTable(const Cloud& thin, float step, float reach, int)
+    : PairTable(frames_of(thin), step, reach, thin.colors) {}
+
+PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach,
+                     const ColorMatrix& colors)
+    : step_(checked(step, reach)),
+      reach_(reach),
+      has_colors_(colors.rows() > 0),
+      points_(std::move(points)) {
   const std::size_t count = points_.size();
   if (count > std::numeric_limits<std::uint16_t>::max())
     throw std::runtime_error("pairs of " + std::to_string(count) +
@@ -47,23 +56,29 @@ PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach)
   starts_.assign(pair_bins(length_bins(step, reach)) + 1, 0);
   const auto for_each_pair = [this](const auto& visit) {
     for (std::size_t a = 0; a < points_.size(); ++a)
-      for (const LocalFrame& b : points_) {
-        const Eigen::Vector3f offset = b.point - points_[a].point;
-        const std::uint32_t bin = pair_bin(points_[a].normal, b.normal, offset, step_);
-        if (bin < starts_.size() - 1) visit(bin, a, offset);
+      for (std::size_t b = 0; b < points_.size(); ++b) {
+        const Eigen::Vector3f offset = points_[b].point - points_[a].point;
+        const std::uint32_t bin = pair_bin(points_[a].normal, points_[b].normal, offset, step_);
+        if (bin < starts_.size() - 1) visit(bin, a, b);
       }
   };
-  for_each_pair([this](std::uint32_t bin, std::size_t, const auto&) { ++starts_[bin]; });
+  for_each_pair([this](std::uint32_t bin, std::size_t, std::size_t) { ++starts_[bin]; });
   std::exclusive_scan(starts_.begin(), starts_.end(), starts_.begin(), 0U);
   ends_.resize(starts_.back());
   std::vector<std::uint32_t> next = starts_;
-  for_each_pair([&](std::uint32_t bin, std::size_t a, const Eigen::Vector3f& offset) {
-    ends_[next[bin]++] = {static_cast<std::uint16_t>(a), points_[a].turn_to(offset)};
+  const PointMatrix lab = has_colors_ ? color::lab_of(colors) : PointMatrix();
+  const auto color_at = [&](std::size_t i) {
+    return Eigen::Vector3f(lab.row(static_cast<Eigen::Index>(i)).transpose());
+  };
+  for_each_pair([&](std::uint32_t bin, std::size_t a, std::size_t b) {
+    ends_[next[bin]++] = {static_cast<std::uint16_t>(a),
+                          points_[a].turn_to(points_[b].point - points_[a].point),
+                          has_colors_ ? color_step(color_at(a), color_at(b)) : std::uint8_t{0}};
   });
   for (std::size_t bin = 0; bin < bins(); ++bin)
     std::sort(ends_.begin() + starts_[bin], ends_.begin() + starts_[bin + 1],
               [](const PairEnd& x, const PairEnd& y) {
-                return std::tie(x.turn, x.point) < std::tie(y.turn, y.point);
+                return std::tie(x.turn, x.point, x.color) < std::tie(y.turn, y.point, y.color);
               });
 }
 

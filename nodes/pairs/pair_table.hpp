@@ -16,6 +16,7 @@ namespace posevote::pairs {
 struct PairEnd {
   std::uint16_t point = 0;  ///< its number among the table's points
   std::uint8_t turn = 0;    ///< of LocalFrame
+  std::uint8_t color = 0;   ///< color_step to the other end, where the table has colours
 };
 
 /// All pairs of points of a model, by their pair_bin. Immutable.
@@ -27,11 +28,13 @@ class PairTable {
   /// fifteenth of the size some 400 points and 150 thousand pairs, in 10 ms.
   PairTable(const Cloud& cloud, float step, float reach);
   /// Of points that are thin already; there may be none.
-  PairTable(std::vector<LocalFrame> points, float step, float reach);
+  PairTable(std::vector<LocalFrame> points, float step, float reach,
+            const ColorMatrix& colors = {});
 
   float step() const { return step_; }
   float reach() const { return reach_; }
   const std::vector<LocalFrame>& points() const { return points_; }
+  bool has_colors() const { return has_colors_; }
   std::size_t bins() const { return starts_.size() - 1; }
   /// The pairs of a bin, by their turns.
   std::span<const PairEnd> operator[](std::uint32_t bin) const {
@@ -55,7 +58,10 @@ class PairTable {
   }
 
  private:
+  PairTable(const Cloud& thin, float step, float reach, int);
+
   float step_ = 0, reach_ = 0;
+  bool has_colors_ = false;
   std::vector<LocalFrame> points_;
   std::vector<std::uint32_t> starts_;  ///< per bin, and the end
   std::vector<PairEnd> ends_;

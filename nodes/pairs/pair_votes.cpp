@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "nodes/color/srgb.hpp"
+#include "nodes/pairs/color_step.hpp"
 #include "nodes/pairs/pair_key.hpp"
 
 namespace posevote::pairs {
@@ -17,6 +19,28 @@ constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
 
 }  // namespace
 
+PairScene::PairScene(const Cloud& thin, float cell, int)
+    : grid_(thin.points, cell), has_colors_(thin.colors.rows() > 0) {
+  const PointMatrix lab = has_colors_ ? color::lab_of(thin.colors) : PointMatrix();
+  for (const std::uint32_t i : grid_.indices()) {
+    points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
+    if (has_colors_) points_.back().lab = lab.row(i).transpose();
+  }
+}
+
+std::optional<Eigen::Vector3f> PairScene::color_near(const Eigen::Vector3f& place,
+                                                     float reach) const {
+  if (!has_colors_) return std::nullopt;
+  std::optional<Eigen::Vector3f> color;
+  float nearest = reach * reach;
+  grid_.for_each_position_within(place, reach, [&](std::size_t i, float squared) {
+    if (squared > nearest) return;
+    nearest = squared;
+    color = points_[i].lab;
+  });
+  return color;
+}
+
 // Bins are all over the memory, so they are fetched before they are needed: their starts first, then
 // the pairs that lie there.
 template <class Visit>
@@ -26,10 +50,14 @@ void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, cons
   touched_.clear();
   seen_.resize(std::max(seen_.size(), table.bins()));
   pairs_.clear();
+  const auto own = table.has_colors() ? scene.color_near(at.point, 2 * table.step()) : std::nullopt;
+  is_colored_ = own.has_value();
   scene.for_each_within(at.point, table.reach(), [&](const PairScene::Point& other) {
     const Eigen::Vector3f offset = other.point - at.point;
     const std::uint32_t bin = pair_bin(at.normal, other.normal, offset, table.step());
-    if (bin < table.bins()) pairs_.push_back({bin, at.turn_to(offset)});
+    if (bin < table.bins())
+      pairs_.push_back(
+          {bin, at.turn_to(offset), own ? color_step(*own, other.lab) : std::uint8_t{0}});
   });
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (i + 2 * kAhead < pairs_.size()) {
@@ -38,13 +66,13 @@ void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, cons
       table.fetch_start(bin);
     }
     if (i + kAhead < pairs_.size()) table.fetch_pairs(pairs_[i + kAhead].bin);
-    const auto [bin, turn] = pairs_[i];
+    const auto [bin, turn, color] = pairs_[i];
     // Many points of a plane make the same pair: it counts once for each turn (Vidal et al. 2018).
     const std::uint32_t flag = 1U << (turn / (256 / kTurns));
     if (seen_[bin] & flag) continue;
     if (seen_[bin] == 0) touched_.push_back(bin);
     seen_[bin] |= flag;
-    visit(bin, turn);
+    visit(bin, turn, color);
   }
 }
 
@@ -93,30 +121,38 @@ std::vector<PairPeak> PairVotes::peaks_of_points(double ratio) const {
 }
 
 std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const LocalFrame& at,
-                                       const PairScene& scene, std::size_t count, double ratio,
-                                       Turn kind) {
+                                       const PairScene& scene, const PeakOptions& options) {
   const std::size_t points = table.points().size();
   std::vector<PairPeak> peaks;
-  if (kind == Turn::kOpen) {
+  if (options.turn == Turn::kOpen) {
     counts_.assign(points * kTurns, 0);
-    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn) {
-      for (const PairEnd end : table[bin]) {
+    const auto extra = static_cast<std::uint16_t>(options.like_color - 1);
+    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
+      const auto count_of = [&](PairEnd end) -> std::uint16_t& {
         const auto off = static_cast<std::uint8_t>(turn - end.turn);
-        ++counts_[end.point * kTurns + off / (256 / kTurns)];
+        return counts_[end.point * kTurns + off / (256 / kTurns)];
+      };
+      if (!is_colored_) {
+        for (const PairEnd end : table[bin]) ++count_of(end);
+        return;
       }
+      const LikeSteps& like = like_steps(color);
+      for (const PairEnd end : table[bin])
+        count_of(end) = static_cast<std::uint16_t>(count_of(end) + 1 + extra * like[end.color]);
     });
-    peaks = peaks_of_turns(points, ratio);
+    peaks = peaks_of_turns(points, options.least_ratio);
   } else {
     counts_.assign(points, 0);
-    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn) {
+    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
       table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
     });
-    peaks = peaks_of_points(ratio);
+    peaks = peaks_of_points(options.least_ratio);
   }
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const PairPeak& a, const PairPeak& b) { return a.pairs > b.pairs; });
-  if (peaks.size() > count) peaks.resize(count);
-  while (!peaks.empty() && peaks.back().pairs < ratio * peaks.front().pairs) peaks.pop_back();
+  if (peaks.size() > options.poses) peaks.resize(options.poses);
+  while (!peaks.empty() && peaks.back().pairs < options.least_ratio * peaks.front().pairs)
+    peaks.pop_back();
   return peaks;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
@@ -16,6 +17,7 @@ class PairScene {
  public:
   struct Point {
     Eigen::Vector3f point, normal;
+    Eigen::Vector3f lab = Eigen::Vector3f::Zero();  ///< where the scene has colours
   };
 
   /// `edge`: of thin_surface [m].
@@ -28,15 +30,16 @@ class PairScene {
   void for_each_within(const Eigen::Vector3f& center, float reach, const Visit& visit) const {
     grid_.for_each_position_within(center, reach, [&](std::size_t i, float) { visit(points_[i]); });
   }
+  bool has_colors() const { return has_colors_; }
+  /// Of the nearest point within `reach` [m].
+  std::optional<Eigen::Vector3f> color_near(const Eigen::Vector3f& place, float reach) const;
 
  private:
-  PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
-    for (const std::uint32_t i : grid_.indices())
-      points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
-  }
+  PairScene(const Cloud& thin, float cell, int);
 
   geometry::PointGrid grid_;
   std::vector<Point> points_;  ///< in the grid's order
+  bool has_colors_ = false;
 };
 
 /// A pose under which many pairs agree: the model's point lies in the scan's, normal on normal, and
@@ -44,20 +47,30 @@ class PairScene {
 struct PairPeak {
   std::uint16_t point = 0;  ///< of the PairTable
   float turn = 0;           ///< [rad]
-  std::uint32_t pairs = 0;  ///< how many agree
+  std::uint32_t pairs =
+      0;  ///< how many agree, some counted several times (PeakOptions::like_color)
 };
 
 /// What of a pose a point with its frame leaves open: the turn about its normal, or nothing.
 enum class Turn { kOpen, kKnown };
+
+struct PeakOptions {
+  std::size_t poses = 1;   ///< of a point, at most
+  double least_ratio = 1;  ///< one with less than this share of the best one's pairs is none
+  Turn turn = Turn::kOpen;
+  /// Times that a pair counts whose colours change as the model's do (color_step.hpp), where table
+  /// and scene have colours; of open turns alone.
+  std::uint16_t like_color = 1;
+};
 
 /// Counts the pairs that one scan point makes with those around it, by the model's point that it
 /// would be and by the turn (Drost et al., CVPR 2010, section 3.3). Keeps its memory for the next
 /// point.
 class PairVotes {
  public:
-  /// The `count` best, in descending order, none with less than `ratio` of the best one's pairs.
+  /// The best, in descending order.
   std::vector<PairPeak> peaks(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              std::size_t count, double ratio, Turn kind = Turn::kOpen);
+                              const PeakOptions& options);
 
  private:
   static constexpr std::uint32_t kTurns = 32;
@@ -74,9 +87,11 @@ class PairVotes {
   struct Pair {
     std::uint32_t bin = 0;
     std::uint8_t turn = 0;
+    std::uint8_t color = 0;  ///< color_step, where both have colours
   };
 
   std::vector<Pair> pairs_;             ///< of the scan, about the point
+  bool is_colored_ = false;             ///< whether they have colours
   std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins

@@ -19,11 +19,12 @@ struct Side {
   Eigen::RowVector3f first;
   Eigen::RowVector3f points = Eigen::RowVector3f::Zero();
   Eigen::RowVector3f normals = Eigen::RowVector3f::Zero();
+  Eigen::RowVector3f colors = Eigen::RowVector3f::Zero();
   float count = 0;
 };
 
-void add(std::vector<Side>& sides, const Eigen::RowVector3f& point,
-         const Eigen::RowVector3f& normal) {
+void add(std::vector<Side>& sides, const Cloud& cloud, std::uint32_t i) {
+  const Eigen::RowVector3f normal = cloud.normals.row(i);
   Side* found = nullptr;
   for (Side& side : sides)
     if (side.first.dot(normal) > kSameSide) {
@@ -31,8 +32,9 @@ void add(std::vector<Side>& sides, const Eigen::RowVector3f& point,
       break;
     }
   if (!found) found = &sides.emplace_back(Side{normal});
-  found->points += point;
+  found->points += cloud.points.row(i);
   found->normals += normal;
+  if (cloud.colors.rows() > 0) found->colors += cloud.colors.row(i);
   ++found->count;
 }
 
@@ -42,19 +44,26 @@ Cloud thin_surface(const Cloud& cloud, float edge) {
   if (cloud.points.rows() == 0) return {};
   const geometry::Voxels voxels = geometry::group_by_voxel(
       cloud.points, geometry::oriented_rows(cloud.points, cloud.normals), edge);
-  std::vector<Eigen::RowVector3f> points, normals;
+  std::vector<Eigen::RowVector3f> points, normals, colors;
   std::vector<Side> sides;
   for (std::size_t v = 0; v < voxels.size(); ++v) {
     const std::span<const std::uint32_t> members = voxels[v];
     sides.clear();
-    for (const std::uint32_t i : members) add(sides, cloud.points.row(i), cloud.normals.row(i));
+    for (const std::uint32_t i : members) add(sides, cloud, i);
     for (const Side& side : sides) {
       if (side.count < kLeastShare * static_cast<float>(members.size())) continue;
       points.push_back(side.points / side.count);
       normals.push_back(side.normals.normalized());
+      colors.push_back(side.colors / side.count);
     }
   }
-  return geometry::cloud_of(points, normals);
+  Cloud thin = geometry::cloud_of(points, normals);
+  if (cloud.colors.rows() > 0) {
+    thin.colors.resize(thin.points.rows(), 3);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      thin.colors.row(static_cast<Eigen::Index>(i)) = colors[i];
+  }
+  return thin;
 }
 
 }  // namespace posevote::pairs

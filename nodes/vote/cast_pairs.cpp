@@ -10,6 +10,12 @@
 // pairs within one plane do not count at all (pair_key.hpp). The scan is thinned to about one point
 // a step of the pairs, once for all models whose steps are alike.
 //
+// Where scan and model have colours, a pair whose colours change from one end to the other as the
+// model's do counts several times (pairs/color_step.hpp); one of other colours still counts, so that a
+// scan of wrong ones loses little. For a fiftieth of an image's time the
+// votes gather at the poses that are right, whose lead over the best elsewhere grows (YCB-Video 1.05 to
+// 1.15, painted `household` 1.8 to 2.2).
+//
 // The points that pairs start from are feature points, so that what is explained takes its votes
 // along. Time: references x pairs of each, some 0.1 ms a reference.
 //
@@ -30,6 +36,7 @@ struct Params {
   int references = 300;
   int poses = 2;
   double least_ratio = 0.7;
+  int like_color = 4;
 };
 
 /// Some of the finest octave's features, evenly taken.
@@ -69,7 +76,9 @@ PerObject<VoteSet> cast_pairs(const PerObject<VoteSet>& given, const FeatureSet&
   std::vector<pairs::Source> sources;
   for (std::size_t i = 0; i < tables.size(); ++i)
     sources.push_back({tables[i], scenes[steps.of[i]].get(), &references});
-  return pairs::cast(given, sources, {static_cast<std::size_t>(params.poses), params.least_ratio});
+  return pairs::cast(given, sources,
+                     {static_cast<std::size_t>(params.poses), params.least_ratio,
+                      pairs::Turn::kOpen, static_cast<std::uint16_t>(params.like_color)});
 }
 
 const auto registered =
@@ -86,7 +95,11 @@ const auto registered =
                graph::in_range(1, 100))
         .param("least_ratio", &Params::least_ratio, "",
                "A pose with less than this share of the pairs of a point's best is no vote.",
-               graph::in_range(0, 1));
+               graph::in_range(0, 1))
+        .param("like_color", &Params::like_color, "",
+               "Times that a pair counts whose colours change from one end to the other as the "
+               "model's do, where scan and model have colours; 1: they do not matter.",
+               graph::in_range(1, 100));
 
 }  // namespace
 }  // namespace posevote::vote

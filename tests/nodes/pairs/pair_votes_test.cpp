@@ -28,7 +28,7 @@ TEST_CASE("the best of a point's poses are told in descending order", "[pairs]")
   pairs::PairVotes votes;
   int right = 0;
   for (std::size_t i = 0; i < table.points().size(); ++i) {
-    const auto peaks = votes.peaks(table, table.points()[i], scene, 4, 0.5);
+    const auto peaks = votes.peaks(table, table.points()[i], scene, {4, 0.5});
     REQUIRE(!peaks.empty());
     CHECK(peaks.size() <= 4);
     for (std::size_t k = 1; k < peaks.size(); ++k) {
@@ -55,8 +55,8 @@ TEST_CASE("what was counted before does not count again", "[pairs]") {
   pairs::PairVotes used;
   for (const std::size_t i : {5U, 9U, 13U})
     for (const pairs::PairTable* table : {&fine, &coarse, &fine}) {
-      const auto again = used.peaks(*table, fine.points()[i], scene, 9, 0);
-      CHECK(same(again, pairs::PairVotes().peaks(*table, fine.points()[i], scene, 9, 0)));
+      const auto again = used.peaks(*table, fine.points()[i], scene, {9, 0});
+      CHECK(same(again, pairs::PairVotes().peaks(*table, fine.points()[i], scene, {9, 0})));
     }
 }
 
@@ -64,5 +64,38 @@ TEST_CASE("a point with nothing around it has no pose", "[pairs]") {
   const auto model = bumpy_model(1);
   const pairs::PairTable table(model->cloud, 0.1F * model->diagonal, model->diagonal);
   const pairs::PairScene scene(model->cloud, 0.1F * model->diagonal);
-  CHECK(pairs::PairVotes().peaks(table, {{9, 9, 9}, {0, 0, 1}}, scene, 3, 0).empty());
+  CHECK(pairs::PairVotes().peaks(table, {{9, 9, 9}, {0, 0, 1}}, scene, {3, 0}).empty());
+}
+
+TEST_CASE("pairs of like colours count several times, and others still count", "[pairs]") {
+  const auto model = bumpy_model(1);
+  const float step = 0.1F * model->diagonal;
+  const auto painted = [&](const Eigen::RowVector3f& low, const Eigen::RowVector3f& high) {
+    Cloud cloud = model->cloud;
+    const float middle = cloud.points.col(0).mean();
+    cloud.colors.resize(cloud.points.rows(), 3);
+    for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
+      cloud.colors.row(i) = cloud.points(i, 0) < middle ? low : high;
+    return cloud;
+  };
+  const Eigen::RowVector3f red(0.5F, 0.05F, 0.05F), blue(0.05F, 0.1F, 0.6F);
+  const Cloud right = painted(red, blue), wrong = painted(blue, red);
+  const pairs::PairTable plain(model->cloud, step, model->diagonal);
+  const pairs::PairTable table(right, step, model->diagonal);
+  REQUIRE(table.has_colors());
+  CHECK(!plain.has_colors());
+  const auto best = [&](const pairs::PairTable& of, const Cloud& scan, std::size_t i) {
+    const pairs::PairScene scene(scan, step);
+    const auto peaks =
+        pairs::PairVotes().peaks(of, of.points()[i], scene, {1, 0, pairs::Turn::kOpen, 4});
+    return peaks.empty() ? 0U : peaks[0].pairs;
+  };
+  for (std::size_t i = 0; i < table.points().size(); i += 7) {
+    const std::uint32_t shape = best(plain, model->cloud, i);
+    CHECK(best(table, right, i) > 3 * shape);
+    CHECK(best(table, wrong, i) < best(table, right, i));
+    CHECK(best(table, wrong, i) >= shape);
+    CHECK(best(table, model->cloud, i) == shape);  // a scan without colours
+    CHECK(best(plain, right, i) == shape);         // a model without
+  }
 }

@@ -53,3 +53,15 @@ TEST_CASE("what has no normal is left out, and nothing stays nothing", "[pairs]"
   CHECK(thin.points.allFinite());
   CHECK(pairs::thin_surface({}, 0.01F).points.rows() == 0);
 }
+
+TEST_CASE("a thin surface has the mean colours of its points", "[pairs]") {
+  Cloud cloud = edge_of_a_box();
+  CHECK(pairs::thin_surface(cloud, 0.01F).colors.rows() == 0);
+  cloud.colors = ColorMatrix::Zero(cloud.points.rows(), 3);
+  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
+    cloud.colors(i, 0) = cloud.normals(i, 2) > 0.5F ? 1.0F : 0.25F;
+  const Cloud thin = pairs::thin_surface(cloud, 0.01F);
+  REQUIRE(thin.colors.rows() == thin.points.rows());
+  for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
+    CHECK(thin.colors(i, 0) == Approx(thin.normals(i, 2) > 0.5F ? 1.0F : 0.25F));
+}
