@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -72,21 +73,36 @@ void move(Eigen::Isometry3d& T_scene_model, const Vector6d& step, const Pivot& p
 }
 
 /// Steps become shorter as a pose settles. Partners that come and go in turn may keep them at one
-/// length for good.
+/// length for good, to and fro.
 class Progress {
  public:
-  /// Whether one of the last few steps was clearly shorter than all before.
-  bool goes_on(double step) {
+  explicit Progress(bool follows_drift) : follows_drift_(follows_drift) {}
+
+  /// Whether one of the last few steps was clearly shorter than all before, or they lead somewhere.
+  bool goes_on(const Vector6d& step) {
     constexpr double kShorter = 0.8;
-    constexpr int kPatience = 5;
-    waited_ = step < kShorter * shortest_ ? 0 : waited_ + 1;
-    if (waited_ == 0) shortest_ = step;
-    return waited_ < kPatience;
+    constexpr double kStraight = 0.8;  // of the way, how far they get
+    const double length = step.norm();
+    last_[count_++ % kPatience] = step;
+    waited_ = length < kShorter * shortest_ ? 0 : waited_ + 1;
+    if (waited_ == 0) shortest_ = length;
+    if (waited_ < kPatience) return true;
+    if (!follows_drift_) return false;
+    Vector6d gone = Vector6d::Zero();
+    double way = 0;
+    for (const Vector6d& one : last_) {
+      gone += one;
+      way += one.norm();
+    }
+    return gone.norm() > kStraight * way;
   }
 
  private:
+  static constexpr std::size_t kPatience = 5;
+  bool follows_drift_;
+  std::array<Vector6d, kPatience> last_;
+  std::size_t count_ = 0, waited_ = 0;
   double shortest_ = std::numeric_limits<double>::infinity();
-  int waited_ = 0;
 };
 
 }  // namespace
@@ -99,7 +115,7 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
   Eigen::Isometry3d T_scene_model = start;
   const auto end = static_cast<double>(params.end_distance);
   double distance = std::max(end, static_cast<double>(params.start_distance));
-  Progress progress;
+  Progress progress(params.follows_drift);
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     std::vector<IcpPair> pairs = find_icp_pairs(model, scan, T_scene_model.cast<float>(),
                                                 static_cast<float>(distance), params.samples);
@@ -113,8 +129,7 @@ Eigen::Isometry3d icp(const Cloud& model, const ScanSurface& scan, const Eigen::
     if (!step.allFinite()) break;
     move(T_scene_model, step, pivot);
     if (pass) pass(T_scene_model);
-    if (distance <= end && (step.norm() <= params.still * end || !progress.goes_on(step.norm())))
-      break;
+    if (distance <= end && (step.norm() <= params.still * end || !progress.goes_on(step))) break;
     distance = std::max(end, distance * terms.shrink);
   }
   return T_scene_model;

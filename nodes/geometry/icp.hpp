@@ -34,6 +34,7 @@ struct IcpParams {
   float end_distance = 0;       ///< and of the last ones [m]
   Eigen::Index samples = 2000;  ///< model points at most, of which about half face the sensor
   double still = 2e-3;          ///< of end_distance: a shorter step ends the search
+  bool follows_drift = true;    ///< steps that do not shorten end it, but for those that lead on
   IcpTerms terms{};
 };
 

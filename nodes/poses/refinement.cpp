@@ -67,12 +67,15 @@ geometry::MorePairs both(geometry::MorePairs one, geometry::MorePairs other) {
   };
 }
 
-geometry::IcpParams steps_from(const Sought& sought, float distance, int points, double still) {
+/// A long slide along a surface is for the pose that is chosen.
+geometry::IcpParams steps_from(const Sought& sought, float distance, int points, double still,
+                               bool follows_drift) {
   return {sought.params.icp_iterations,
           distance,
           sought.params.tolerance,
           points,
           still,
+          follows_drift,
           sought.terms.icp};
 }
 
@@ -110,14 +113,14 @@ void take_first_steps(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   run_icp(sought, candidate, kFirstSteps,
           {terms.coarse_steps, sought.params.icp_distance, sought.params.tolerance,
-           terms.coarse_points, terms.full_still, sought.terms.icp});
+           terms.coarse_points, terms.full_still, false, sought.terms.icp});
 }
 
 void refine(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   const Closeness look{{sought.terms.schedule.close_points, true}};
   const auto steps = [&](float distance) {
-    return steps_from(sought, distance, terms.full_points, terms.full_still);
+    return steps_from(sought, distance, terms.full_points, terms.full_still, false);
   };
   const bool is_new = !std::exchange(candidate.is_refined, true);
   if (is_new) run_icp(sought, candidate, kFull, steps(sought.params.icp_distance));
@@ -130,7 +133,7 @@ void refine(const Sought& sought, Candidate& candidate) {
 void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   const geometry::IcpParams steps =
-      steps_from(sought, sought.params.tolerance, terms.polish_points, terms.polish_still);
+      steps_from(sought, sought.params.tolerance, terms.polish_points, terms.polish_still, true);
   run_icp(sought, candidate, kPolish, steps, ends_of(sought));
   judge_refined(sought, candidate, kAllPoints);
   try_contour(sought, candidate, kPolishByContour, steps, both(ends_of(sought), contour_of(sought)),

@@ -155,3 +155,38 @@ TEST_CASE("points and normals that are not finite do not reach the pose", "[segm
   CHECK(end.matrix().allFinite());
   CHECK(error_of(end, body.T_scene_model).shift < 0.1 * kResolution);
 }
+
+TEST_CASE("ICP ends where partners only come and go, and follows what slides if asked",
+          "[segment]") {
+  const Cloud model = noisy_plane(0.03F, 0, 0);
+  const geometry::ScanSurface surface(noisy_plane(0.06F, 0, 0), true, kReach);
+  int calls = 0;
+  // A pull along the plane, where nothing else holds it: to and fro, or one way.
+  const auto pull = [&](bool alternates) {
+    return [&calls, alternates](const Eigen::Isometry3d& T_scene_model, double) {
+      const double side = alternates && ++calls % 2 == 0 ? 1 : -1;
+      std::vector<geometry::IcpPair> pairs;
+      for (const double y : {-0.02, 0.02}) {
+        geometry::IcpPair& pair = pairs.emplace_back();
+        pair.point = T_scene_model * Eigen::Vector3d(0, y, 1);
+        pair.normal = Eigen::Vector3d::UnitX();
+        pair.residual = 0.2 * side * static_cast<double>(kResolution);
+        pair.weight = 100;
+      }
+      return pairs;
+    };
+  };
+  const auto steps_of = [&](const geometry::MorePairs& more, bool follows_drift) {
+    geometry::IcpParams params = kParams;
+    params.follows_drift = follows_drift;
+    int steps = 0;
+    geometry::icp(
+        model, surface, Eigen::Isometry3d::Identity(), params,
+        [&steps](const Eigen::Isometry3d&) { ++steps; }, more);
+    return steps;
+  };
+  CHECK(steps_of(pull(true), true) < 20);
+  CHECK(steps_of(pull(true), false) < 20);
+  CHECK(steps_of(pull(false), false) < 20);
+  CHECK(steps_of(pull(false), true) == kParams.iterations);
+}
