@@ -30,7 +30,6 @@ class PairScene {
   void for_each_within(const Eigen::Vector3f& center, float reach, const Visit& visit) const {
     grid_.for_each_position_within(center, reach, [&](std::size_t i, float) { visit(points_[i]); });
   }
-  bool has_colors() const { return has_colors_; }
   /// Of the nearest point within `reach` [m].
   std::optional<Eigen::Vector3f> color_near(const Eigen::Vector3f& place, float reach) const;
 
@@ -47,8 +46,7 @@ class PairScene {
 struct PairPeak {
   std::uint16_t point = 0;  ///< of the PairTable
   float turn = 0;           ///< [rad]
-  std::uint32_t pairs =
-      0;  ///< how many agree, some counted several times (PeakOptions::like_color)
+  std::uint32_t pairs = 0;  ///< how many agree, those of like colours several times
 };
 
 /// What of a pose a point with its frame leaves open: the turn about its normal, or nothing.

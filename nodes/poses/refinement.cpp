@@ -89,10 +89,10 @@ void judge_refined(const Sought& sought, Candidate& candidate, const Closeness& 
 bool may_gain_by_contour(const Sought& sought, const Candidate& candidate) {
   constexpr double kFew = 0.02;                    // of the points that take a side, seen through
   constexpr double kHopeless = 0.03, kSure = 0.9;  // confidences that a contour hardly changes
+  if (!sought.params.refine || sought.terms.contour.points == 0) return false;
+  if (candidate.confidence <= kHopeless || candidate.confidence >= kSure) return false;
   const auto sides = static_cast<double>(candidate.fit.facing - candidate.fit.hidden);
-  return sought.params.refine && sought.terms.contour.points > 0 &&
-         candidate.confidence > kHopeless &&
-         candidate.confidence<kSure&& static_cast<double>(candidate.fit.contradicted)> kFew * sides;
+  return static_cast<double>(candidate.fit.contradicted) > kFew * sides;
 }
 
 /// Kept where it makes the pose more probable: beside what touches the object, or is in its place,
