@@ -78,7 +78,7 @@ PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach,
   for (std::size_t bin = 0; bin < bins(); ++bin)
     std::sort(ends_.begin() + starts_[bin], ends_.begin() + starts_[bin + 1],
               [](const PairEnd& x, const PairEnd& y) {
-                return std::tie(x.turn, x.point, x.color) < std::tie(y.turn, y.point, y.color);
+                return std::tie(x.turn, x.point) < std::tie(y.turn, y.point);
               });
 }
 

@@ -45,19 +45,17 @@ std::optional<Eigen::Vector3f> PairScene::color_near(const Eigen::Vector3f& plac
 // the pairs that lie there.
 template <class Visit>
 void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              const Visit& visit) {
+                              const std::optional<Eigen::Vector3f>& own_color, const Visit& visit) {
   for (const std::uint32_t bin : touched_) seen_[bin] = 0;
   touched_.clear();
   seen_.resize(std::max(seen_.size(), table.bins()));
   pairs_.clear();
-  const auto own = table.has_colors() ? scene.color_near(at.point, 2 * table.step()) : std::nullopt;
-  is_colored_ = own.has_value();
   scene.for_each_within(at.point, table.reach(), [&](const PairScene::Point& other) {
     const Eigen::Vector3f offset = other.point - at.point;
     const std::uint32_t bin = pair_bin(at.normal, other.normal, offset, table.step());
     if (bin < table.bins())
-      pairs_.push_back(
-          {bin, at.turn_to(offset), own ? color_step(*own, other.lab) : std::uint8_t{0}});
+      pairs_.push_back({bin, at.turn_to(offset),
+                        own_color ? color_step(*own_color, other.lab) : std::uint8_t{0}});
   });
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (i + 2 * kAhead < pairs_.size()) {
@@ -126,26 +124,30 @@ std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const LocalFrame&
   std::vector<PairPeak> peaks;
   if (options.turn == Turn::kOpen) {
     counts_.assign(points * kTurns, 0);
+    const auto own_color =
+        table.has_colors() ? scene.color_near(at.point, 2 * table.step()) : std::nullopt;
     const auto extra = static_cast<std::uint16_t>(options.like_color - 1);
-    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
-      const auto count_of = [&](PairEnd end) -> std::uint16_t& {
-        const auto off = static_cast<std::uint8_t>(turn - end.turn);
-        return counts_[end.point * kTurns + off / (256 / kTurns)];
-      };
-      if (!is_colored_) {
-        for (const PairEnd end : table[bin]) ++count_of(end);
-        return;
-      }
-      const LikeSteps& like = like_steps(color);
-      for (const PairEnd end : table[bin])
-        count_of(end) = static_cast<std::uint16_t>(count_of(end) + 1 + extra * like[end.color]);
-    });
+    for_each_pair(
+        table, at, scene, own_color, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
+          const auto count_of = [&](PairEnd end) -> std::uint16_t& {
+            const auto off = static_cast<std::uint8_t>(turn - end.turn);
+            return counts_[end.point * kTurns + off / (256 / kTurns)];
+          };
+          if (!own_color) {
+            for (const PairEnd end : table[bin]) ++count_of(end);
+            return;
+          }
+          const LikeSteps& like = like_steps(color);
+          for (const PairEnd end : table[bin])
+            count_of(end) = static_cast<std::uint16_t>(count_of(end) + 1 + extra * like[end.color]);
+        });
     peaks = peaks_of_turns(points, options.least_ratio);
   } else {
     counts_.assign(points, 0);
-    for_each_pair(table, at, scene, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
-      table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
-    });
+    for_each_pair(
+        table, at, scene, std::nullopt, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
+          table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
+        });
     peaks = peaks_of_points(options.least_ratio);
   }
   std::stable_sort(peaks.begin(), peaks.end(),

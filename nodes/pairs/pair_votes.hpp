@@ -73,11 +73,11 @@ class PairVotes {
  private:
   static constexpr std::uint32_t kTurns = 32;
 
-  /// Calls visit(bin, turn) for each kind of pair that the scan has about the point, and the turn
-  /// about it at which it has it.
+  /// Calls visit(bin, turn, color) for each kind of pair that the scan has about the point, the turn
+  /// about it at which it has it, and, where the point's own colour is given, the color_step.
   template <class Visit>
   void for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                     const Visit& visit);
+                     const std::optional<Eigen::Vector3f>& own_color, const Visit& visit);
   std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio) const;
   std::vector<PairPeak> peaks_of_points(double ratio) const;
   PairPeak peak_of(std::uint16_t point) const;
@@ -89,7 +89,6 @@ class PairVotes {
   };
 
   std::vector<Pair> pairs_;             ///< of the scan, about the point
-  bool is_colored_ = false;             ///< whether they have colours
   std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins

@@ -54,16 +54,10 @@ Cloud thin_surface(const Cloud& cloud, float edge) {
       if (side.count < kLeastShare * static_cast<float>(members.size())) continue;
       points.push_back(side.points / side.count);
       normals.push_back(side.normals.normalized());
-      colors.push_back(side.colors / side.count);
+      if (cloud.colors.rows() > 0) colors.push_back(side.colors / side.count);
     }
   }
-  Cloud thin = geometry::cloud_of(points, normals);
-  if (cloud.colors.rows() > 0) {
-    thin.colors.resize(thin.points.rows(), 3);
-    for (std::size_t i = 0; i < colors.size(); ++i)
-      thin.colors.row(static_cast<Eigen::Index>(i)) = colors[i];
-  }
-  return thin;
+  return geometry::cloud_of(points, normals, colors);
 }
 
 }  // namespace posevote::pairs

@@ -111,9 +111,10 @@ void try_contour(const Sought& sought, Candidate& candidate, Kind kind,
 
 void take_first_steps(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
-  run_icp(sought, candidate, kFirstSteps,
-          {terms.coarse_steps, sought.params.icp_distance, sought.params.tolerance,
-           terms.coarse_points, terms.full_still, false, sought.terms.icp});
+  geometry::IcpParams steps =
+      steps_from(sought, sought.params.icp_distance, terms.coarse_points, terms.full_still, false);
+  steps.iterations = terms.coarse_steps;
+  run_icp(sought, candidate, kFirstSteps, steps);
 }
 
 void refine(const Sought& sought, Candidate& candidate) {

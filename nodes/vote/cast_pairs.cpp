@@ -10,11 +10,11 @@
 // pairs within one plane do not count at all (pair_key.hpp). The scan is thinned to about one point
 // a step of the pairs, once for all models whose steps are alike.
 //
-// Where scan and model have colours, a pair whose colours change from one end to the other as the
-// model's do counts several times (pairs/color_step.hpp); one of other colours still counts, so that a
-// scan of wrong ones loses little. For a fiftieth of an image's time the
-// votes gather at the poses that are right, whose lead over the best elsewhere grows (YCB-Video 1.05 to
-// 1.15, painted `household` 1.8 to 2.2).
+// Where scan and model have colours, a pair whose colours change from one end to the other as
+// the model's do counts several times (pairs/color_step.hpp); one of other colours still
+// counts, so that a scan of wrong ones loses little. For a fiftieth of an image's time the
+// votes gather at the poses that are right, whose lead over the best elsewhere grows (YCB-Video
+// 1.05 to 1.15, painted `household` 1.8 to 2.2).
 //
 // The points that pairs start from are feature points, so that what is explained takes its votes
 // along. Time: references x pairs of each, some 0.1 ms a reference.

@@ -113,7 +113,7 @@ std::tuple<PerObject<VoteSet>, FeatureSet> cast_rims(const PerObject<VoteSet>& g
   }
   PerObject<VoteSet> votes = pairs::cast(
       given, sources,
-      {static_cast<std::size_t>(params.poses), params.least_ratio, pairs::Turn::kKnown, 1});
+      {static_cast<std::size_t>(params.poses), params.least_ratio, pairs::Turn::kKnown});
   return {std::move(votes), std::move(vote_points)};
 }
 
