@@ -52,6 +52,11 @@ bool ScanState::changed_since(int since, const Eigen::AlignedBox3d& box, double 
   });
 }
 
+void ScanState::learn_from(const Model& model, const Candidate& instance) {
+  usual_residual.add(instance.fit, range_of(model, instance.T_scene_model));
+  usual_tint.add(instance.colors);
+}
+
 double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
   return (posed_center(T_scene_model, model.center) - cloud.view.origin.cast<double>()).norm();
 }

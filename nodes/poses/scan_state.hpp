@@ -9,6 +9,7 @@
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/range_view.hpp"
 #include "nodes/geometry/scan_surface.hpp"
+#include "nodes/poses/candidate.hpp"
 #include "nodes/poses/color_fit.hpp"
 #include "nodes/poses/terms.hpp"
 #include "nodes/poses/usual_residual.hpp"
@@ -32,6 +33,9 @@ struct ScanState {
   /// lie within `radius` of a box [m]. Never false where they do.
   bool changed_since(int since, const Eigen::AlignedBox3d& box, double radius) const;
 
+  /// An instance tells what is usual in this scan, by which others are judged.
+  void learn_from(const Model& model, const Candidate& instance);
+
   /// How far a posed model's centre is from the sensor [m].
   double range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
 
@@ -43,8 +47,8 @@ struct ScanState {
   std::vector<char> feature_explained;  // per scene feature
   int takes = 0;                        // how often something was taken out
   UsualResidual usual_residual;         // of what was found
+  UsualTint usual_tint;                 // of what was found
   LookOf look;
-  UsualTint usual_tint;  // of what was found
 
  private:
   std::vector<Eigen::AlignedBox3d> gone_;  // what each take took out lies in

@@ -114,8 +114,7 @@ std::vector<Sighting> keep(const Sightings& before, std::vector<Look>& looks,
     candidate.covariance = poses::pose_covariance(look.sought, candidate.T_scene_model);
     if (i + 1 < looks.size())
       scan.take_out(look.sought.model, candidate.T_scene_model, rules.explained_distance);
-    scan.usual_residual.add(candidate.fit,
-                            scan.range_of(look.sought.model, candidate.T_scene_model));
+    scan.learn_from(look.sought.model, candidate);
     hold_steady(before.items[i], look, terms);
     kept.push_back(look.now);
   }

@@ -62,8 +62,7 @@ void accept(const std::vector<poses::Sighting>& known, std::vector<poses::Object
     poses::ObjectSearch& search = searches[one.object];
     search.accept(one.candidate);
     scan.take_out(search.model(), one.candidate.T_scene_model, search.params().explained_distance);
-    scan.usual_residual.add(one.candidate.fit,
-                            scan.range_of(search.model(), one.candidate.T_scene_model));
+    scan.learn_from(search.model(), one.candidate);
   }
 }
 

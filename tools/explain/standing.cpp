@@ -134,8 +134,7 @@ void Bench::take_out_found(poses::ScanState& scan) const {
   for (const poses::Instance& one : search.instances().found) {
     const Model& model = taps.votes[one.object].model->at(scan.resolution);
     take_out(one, scan);
-    scan.usual_residual.add(one.candidate.fit, scan.range_of(model, one.candidate.T_scene_model));
-    scan.usual_tint.add(one.candidate.colors);
+    scan.learn_from(model, one.candidate);
   }
 }
 

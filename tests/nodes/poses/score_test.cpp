@@ -116,6 +116,20 @@ TEST_CASE("a pose convinces by score and confidence; a rival's has no consensus"
   CHECK(lonely.score() < 0.5 * lonely.quality);
 }
 
+TEST_CASE("others are judged by the residual and the tint of an instance", "[poses]") {
+  SoughtBody body({kBody});
+  poses::Candidate instance = body.candidate(beside(0));
+  instance.fit.supported = 100, instance.fit.rmse = 1e-3;
+  instance.colors.emplace();
+  instance.colors->has_tint = true;
+  instance.colors->tint = {8, -4};
+  body.scan.learn_from(body.model, instance);
+  CHECK(body.scan.usual_tint.tint().isApprox(Eigen::Vector2d(4, -2)));
+  poses::Fit off = instance.fit;
+  off.rmse = 3e-3;
+  CHECK(body.scan.usual_residual.exactness(off, 0.8, {1.5, 0}) == 0.6);
+}
+
 TEST_CASE("what leaves more than the instances before is less exact, once refined", "[poses]") {
   SoughtBody body({kBody});
   poses::Fit exact;
