@@ -48,6 +48,7 @@ struct Outline {
   std::vector<std::uint8_t> ends{};  ///< of the body
   float gap_reach = 0;               ///< the same, for gaps
   std::vector<std::uint8_t> gaps{};  ///< holes, slots, teeth, and where the body ends
+  Eigen::Matrix3Xf hull{};           ///< 3 x N, the outermost points
 };
 
 /// One object, preprocessed and described. Its cloud, near symmetries and outline belong together.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/extreme_points.hpp"
 #include "nodes/geometry/grid.hpp"
 
 namespace posevote::geometry {
@@ -30,7 +31,8 @@ std::vector<std::uint8_t> ends_of(const Cloud& model, float reach) {
 }  // namespace
 
 Outline outline_of(const Cloud& model, float reach, float gap_reach) {
-  return {reach, ends_of(model, reach), gap_reach, ends_of(model, gap_reach)};
+  return {reach, ends_of(model, reach), gap_reach, ends_of(model, gap_reach),
+          extreme_points(model.points).cast<float>()};
 }
 
 Eigen::Vector3f place_ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {

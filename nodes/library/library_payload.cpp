@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "nodes/descriptors/descriptor_index.hpp"
+#include "nodes/geometry/extreme_points.hpp"
 #include "nodes/library/check_library.hpp"
 #include "nodes/pairs/pair_table.hpp"
 
@@ -154,6 +155,7 @@ Model get_model(ByteReader& in, int depth = 0) {
   model.outline.gap_reach = in.get<float>();
   const std::string_view gaps = in.get_text();
   model.outline.gaps.assign(gaps.begin(), gaps.end());
+  model.outline.hull = geometry::extreme_points(model.cloud.points).cast<float>();
   const auto pair_step = in.get<float>();
   const auto rim_step = in.get<float>();
   const auto coarser = in.get<std::uint64_t>();

@@ -50,10 +50,30 @@ Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
 /// Of a place where the model's surface is no more: what the scan's does there.
 enum class End { kEnds, kGoesOn, kHidden };
 
+/// A posed model that may stand on something.
+struct Stander {
+  const Outline& outline;
+  Eigen::Isometry3f T_model_scene;
+
+  /// Whether the model lies on one side of a surface, and rises on it. Its heights over that err by
+  /// `height` [m] at the place, and by the surface's tilt, which is known as well over half the
+  /// outline's reach, the more the farther away.
+  bool stands_on(const geometry::OrientedPoint& surface, float height) const {
+    const Eigen::Vector3f normal = T_model_scene.linear() * surface.normal;
+    const Eigen::Matrix3Xf ways = outline.hull.colwise() - T_model_scene * surface.point;
+    const Eigen::RowVectorXf heights = normal.transpose() * ways;
+    const Eigen::RowVectorXf errors = 2 * height / outline.reach * ways.colwise().norm();
+    return (heights + errors).minCoeff() >= -height && (heights - errors).maxCoeff() >= 0;
+  }
+};
+
 /// What is more than `height` [m] lower or higher is another surface: the ground under a plate.
-End look_at_end(const geometry::OrientedPoint& place, const Sensed& sensed, float height) {
+/// What the model stands on does not tell: ahead of a foot's chamfer the ground comes soon.
+End look_at_end(const geometry::OrientedPoint& place, const Sensed& sensed, const Stander& model,
+                float height) {
   if (const auto partner = sensed.scan.nearest_compatible(place, sensed.tolerance))
-    if (std::abs((partner->point - place.point).dot(place.normal)) <= height) return End::kGoesOn;
+    if (std::abs((partner->point - place.point).dot(place.normal)) <= height)
+      return model.stands_on(*partner, height) ? End::kHidden : End::kGoesOn;
   const float measured = sensed.view.measured_range(place.point);
   const float range = (place.point - sensed.scan.viewpoint()).norm();
   return measured == 0 || measured < range - sensed.clear_distance ? End::kHidden : End::kEnds;
@@ -122,17 +142,19 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(stride);
   const float height = static_cast<float>(terms.same_height * fit.rmse) + kSomeHeight * tolerance;
+  const Stander stander{outline, T.inverse()};
   std::vector<Beside> beside(points.size());
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
     if (points[i].verdict != Verdict::kSupported) return;
     const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
     const Eigen::Vector3f normal = posed(i).normal;
     geometry::for_each_end(model, outline, row, [&](const Eigen::Vector3f& end) {
-      count_end(look_at_end({T * end, normal}, sensed, height), beside[i].ends, beside[i].overhang);
+      count_end(look_at_end({T * end, normal}, sensed, stander, height), beside[i].ends,
+                beside[i].overhang);
     });
     if (!sampling.gaps) return;
     geometry::for_each_gap(model, outline, row, [&](const Eigen::Vector3f& gap, bool is_hole) {
-      const End end = look_at_end({T * gap, normal}, sensed, height);
+      const End end = look_at_end({T * gap, normal}, sensed, stander, height);
       count_end(end, beside[i].gaps, beside[i].filled);
       if (is_hole) count_end(end, beside[i].holes, beside[i].filled_holes);
     });

@@ -210,6 +210,24 @@ TEST_CASE("the ground close under a plate is not the plate", "[poses]") {
   CHECK(overhang_on(0.05F * kTolerance) > 0.9);
 }
 
+TEST_CASE("the ground on which a body stands is not its overhang", "[poses]") {
+  // A foot as thin as nothing, and something over or under it.
+  const auto overhang_with = [](float under) {
+    Cloud body = test::detail::wall(0, 0.05F);
+    if (under != 0)
+      test::detail::append(body, test::detail::wall(under, 0.02F), Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d T(Eigen::Translation3d(0, 0, 1));
+    Cloud scan = test::detail::wall(1, 0.3F);
+    test::detail::append(scan, body, T);
+    const poses::Fit fit = fit_of(body, scan, T);
+    CHECK(fit.ends > 100);
+    return static_cast<double>(fit.overhang) / static_cast<double>(fit.ends);
+  };
+  CHECK(overhang_with(-0.05F) < 0.02);
+  CHECK(overhang_with(0.05F) > 0.6);
+  CHECK(overhang_with(0) > 0.9);
+}
+
 TEST_CASE("a sample of the model gives nearly the same fit", "[poses]") {
   const Cloud scan = scan_of({kBody}), model = bumpy_model(1)->cloud;
   const geometry::RangeView view(scan, kResolution);
