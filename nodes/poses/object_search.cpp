@@ -81,12 +81,12 @@ void ObjectSearch::choose_best() {
     if (is_promising) polish(sought_, *best_);
     best_->symmetries = symmetries_left(sought_, *best_);
     if (is_promising && is_convincing(sought_, *best_) &&
-        taken_.is_clear(sought_.model, best_->T_scene_model)) {
+        taken_.is_clear(sought_, best_->T_scene_model)) {
       best_->covariance = pose_covariance(sought_, best_->T_scene_model);
       return;
     }
   }
-  if (best_ && taken_.is_clear(sought_.model, best_->T_scene_model)) refused_.push_back(*best_);
+  if (best_ && taken_.is_clear(sought_, best_->T_scene_model)) refused_.push_back(*best_);
   best_.reset();
   pool_.clear();
 }
@@ -112,7 +112,7 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
                                                Candidates::const_iterator end) const {
   const Candidate* first = nullptr;
   for (auto candidate = begin; candidate != end; ++candidate) {
-    if (!taken_.is_clear(sought_.model, candidate->T_scene_model)) continue;
+    if (!taken_.is_clear(sought_, candidate->T_scene_model)) continue;
     if (!is_convincing(sought_, *candidate)) {
       if (!first) first = &*candidate;
       continue;

@@ -47,8 +47,10 @@ bool TakenPlaces::is_clear(const Eigen::Vector3f& center) const {
   });
 }
 
-bool TakenPlaces::is_clear(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
-  return is_clear(Eigen::Vector3f(posed_center(T_scene_model, model.center).cast<float>()));
+bool TakenPlaces::is_clear(const Sought& sought, const Eigen::Isometry3d& T_scene_model) const {
+  return is_clear(
+             Eigen::Vector3f(posed_center(T_scene_model, sought.model.center).cast<float>())) &&
+         sought.scan.share_inside(sought.model, T_scene_model) <= sought.params.overlap;
 }
 
 Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken) {

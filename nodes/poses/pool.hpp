@@ -22,8 +22,8 @@ class TakenPlaces {
   /// Where it is, and where it was proposed.
   void take(const Model& model, const Candidate& instance);
   bool is_clear(const Eigen::Vector3f& center) const;
-  /// Whether the place of a posed model is.
-  bool is_clear(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
+  /// Whether the place of a pose is, and it has room beside what was found of other objects, too.
+  bool is_clear(const Sought& sought, const Eigen::Isometry3d& T_scene_model) const;
 
  private:
   float radius_;

@@ -9,7 +9,9 @@
 namespace posevote::poses {
 namespace {
 
-constexpr float kSearchCell = 2;  // x resolution; of the index, changes no result
+constexpr double kBelieved = 0.5;  // more likely there than not, whatever min_confidence is
+constexpr float kSkin = 2;         // x resolution; so near a body others may come
+constexpr float kSearchCell = 2;   // x resolution; of the index, changes no result
 
 void extend(Eigen::AlignedBox3d& box, const PointMatrix& points, const std::vector<char>& chosen) {
   for (std::size_t i = 0; i < chosen.size(); ++i)
@@ -55,6 +57,15 @@ bool ScanState::changed_since(int since, const Eigen::AlignedBox3d& box, double 
 void ScanState::learn_from(const Model& model, const Candidate& instance) {
   usual_residual.add(instance.fit, range_of(model, instance.T_scene_model));
   usual_tint.add(instance.colors);
+  if (instance.confidence >= kBelieved)
+    solids_.emplace_back(model.cloud, instance.T_scene_model,
+                         kSkin * std::max(resolution, model.resolution));
+}
+
+double ScanState::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
+  double share = 0;
+  for (const Solid& solid : solids_) share += solid.share_inside(model.cloud, T_scene_model);
+  return share;
 }
 
 double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {

@@ -11,6 +11,7 @@
 #include "nodes/geometry/scan_surface.hpp"
 #include "nodes/poses/candidate.hpp"
 #include "nodes/poses/color_fit.hpp"
+#include "nodes/poses/solid.hpp"
 #include "nodes/poses/terms.hpp"
 #include "nodes/poses/usual_residual.hpp"
 
@@ -33,8 +34,11 @@ struct ScanState {
   /// lie within `radius` of a box [m]. Never false where they do.
   bool changed_since(int since, const Eigen::AlignedBox3d& box, double radius) const;
 
-  /// An instance tells what is usual in this scan, by which others are judged.
+  /// An instance tells what is usual in this scan, by which others are judged, and where no other
+  /// can be. Keeps a reference to the model.
   void learn_from(const Model& model, const Candidate& instance);
+  /// The share of a posed model's surface that lies in instances.
+  double share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
 
   /// How far a posed model's centre is from the sensor [m].
   double range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const;
@@ -52,6 +56,7 @@ struct ScanState {
 
  private:
   std::vector<Eigen::AlignedBox3d> gone_;  // what each take took out lies in
+  std::vector<Solid> solids_;
 };
 
 }  // namespace posevote::poses

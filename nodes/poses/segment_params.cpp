@@ -45,6 +45,7 @@ InstanceParams instance_params(const SegmentParams& params, const Model& model,
   out.min_score = params.min_score;
   out.min_confidence = params.min_confidence;
   out.nms_radius = static_cast<float>(params.nms) * model.diagonal;
+  out.overlap = params.overlap;
   out.refine = params.refine;
   out.icp_iterations = params.icp_iterations;
   out.icp_distance = length(params.icp_distance);
@@ -115,6 +116,10 @@ graph::Registration<SegmentParams> with_segment_params(graph::Registration<Segme
   node.param("nms", &P::nms, "x diagonal",
              "Instances of one object lie farther apart than this share of its bounding box.",
              graph::in_range(0, 10));
+  node.param("overlap", &P::overlap, "x surface",
+             "Bodies are solid: of an instance at most this share lies in those that were found "
+             "before. 1: any.",
+             graph::in_range(0, 1));
   node.param("min_confidence", &P::min_confidence, "",
              "Detections that are right with less probability are rejected.",
              graph::in_range(0, 1));

@@ -14,6 +14,7 @@ struct SegmentParams {
   int max_instances = 20;
   int candidates = 1000;
   double nms = 0.1;
+  double overlap = 0.1;
   double min_confidence = 0.5;
   double min_score = 0.1;
   bool refine = true;

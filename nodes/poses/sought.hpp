@@ -25,6 +25,7 @@ struct InstanceParams {
   std::size_t candidates = 1;  ///< poses that are judged
   double min_score = 0, min_confidence = 0;
   float nms_radius = 0;          ///< between the centres of instances [m]
+  double overlap = 1;            ///< share of the surface that may lie in instances before
   bool refine = true;            ///< by ICP
   int icp_iterations = 40;       ///< at most
   float icp_distance = 0;        ///< search radius of the first iteration [m]

@@ -43,7 +43,7 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
     const double enough = by_color == 0 ? telling : 0;
     if (lead < -enough) continue;
     const Standing standing = lead > enough ? Standing{lead, 0} : Standing{0, twin.rank};
-    if (standing <= highest || !taken.is_clear(sought.model, twin.T_scene_model)) continue;
+    if (standing <= highest || !taken.is_clear(sought, twin.T_scene_model)) continue;
     best = twin;
     highest = standing;
   }

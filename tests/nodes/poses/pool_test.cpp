@@ -50,13 +50,31 @@ TEST_CASE("nothing is proposed where an instance is, or was proposed", "[poses]"
   poses::Candidate instance = body.candidate(beside(0.2));
   instance.T_scene_model = beside(0);  // ICP moved it
   taken.take(body.model, instance);
-  CHECK_FALSE(taken.is_clear(body.model, beside(0.9 * nms)));
-  CHECK(taken.is_clear(body.model, beside(1.1 * nms)));
-  CHECK_FALSE(taken.is_clear(body.model, beside(0.2 - 0.9 * nms)));
+  CHECK_FALSE(taken.is_clear(sought, beside(0.9 * nms)));
+  CHECK(taken.is_clear(sought, beside(1.1 * nms)));
+  CHECK_FALSE(taken.is_clear(sought, beside(0.2 - 0.9 * nms)));
   const poses::Candidates pool = poses::collect(
       sought, {body.hypothesis(beside(0.5 * nms), 9), body.hypothesis(beside(0.1), 3)}, taken);
   CHECK(supports(pool) == Supports{3});
   CHECK(sought.most_support == 3);
+}
+
+TEST_CASE("bodies are solid: where one was found, another object has no room", "[poses]") {
+  SoughtBody body({kBody});
+  const poses::Sought sought = body.sought();
+  const poses::TakenPlaces none(0);
+  const double width = double(body.model.diagonal);
+  poses::Candidate instance = body.candidate(beside(0));
+  instance.confidence = 0.4;  // it may not be there
+  body.scan.learn_from(body.model, instance);
+  CHECK(none.is_clear(sought, beside(0.3 * width)));
+  instance.confidence = 0.6;
+  body.scan.learn_from(body.model, instance);
+  CHECK_FALSE(none.is_clear(sought, beside(0.3 * width)));
+  CHECK(none.is_clear(sought, beside(width)));
+  poses::Sought hollow = body.sought();
+  hollow.params.overlap = 1;
+  CHECK(none.is_clear(hollow, beside(0.3 * width)));
 }
 
 TEST_CASE("once judged, the best stands for its place, with the highest support there", "[poses]") {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/solid.hpp"
+
+namespace posevote::poses {
+namespace {
+
+constexpr Eigen::Index kSample = 500;
+constexpr float kBack = 0.7F;  // cosine, of a surface that looks the other way
+
+Eigen::AlignedBox3f box_of(const PointMatrix& points) {
+  Eigen::AlignedBox3f box;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    box.extend(Eigen::Vector3f(points.row(i).transpose()));
+  return box;
+}
+
+}  // namespace
+
+Solid::Solid(const Cloud& model, const Eigen::Isometry3d& T_scene_model, float depth)
+    : model_(model),
+      T_model_scene_(T_scene_model.inverse()),
+      depth_(depth),
+      box_(box_of(model.points)),
+      grid_(model.points, depth) {}
+
+double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_other) const {
+  const Eigen::Isometry3f T = (T_model_scene_ * T_scene_other).cast<float>();
+  const Eigen::Index stride = other.points.rows() / kSample + 1;
+  double inside = 0, all = 0;
+  for (Eigen::Index i = 0; i < other.points.rows(); i += stride, ++all)
+    inside += has_inside(T * Eigen::Vector3f(other.points.row(i).transpose()));
+  return all > 0 ? inside / all : 0;
+}
+
+bool Solid::has_inside(const Eigen::Vector3f& point) const {
+  if (!box_.contains(point)) return false;
+  const Eigen::Index row = nearest(point, depth_);
+  const Eigen::RowVector3f outward = model_.points.row(row) - point.transpose();
+  return model_.normals.row(row).dot(outward) > depth_ && !is_sheet(row);
+}
+
+/// Most points that are asked for lie near the surface: looks `from` there, then farther.
+Eigen::Index Solid::nearest(const Eigen::Vector3f& point, float from) const {
+  Eigen::Index row = -1;
+  for (float radius = from, least = 0; row < 0; radius *= 2)
+    grid_.for_each_within(point, radius, [&](std::uint32_t i, float squared) {
+      if (row >= 0 && squared >= least) return;
+      row = i;
+      least = squared;
+    });
+  return row;
+}
+
+bool Solid::is_sheet(Eigen::Index row) const {
+  bool is_back_there = false;
+  grid_.for_each_within(model_.points.row(row).transpose(), depth_, [&](std::uint32_t i, float) {
+    const auto back = static_cast<Eigen::Index>(i);
+    is_back_there = is_back_there || model_.normals.row(row).dot(model_.normals.row(back)) < -kBack;
+  });
+  return is_back_there;
+}
+
+}  // namespace posevote::poses
