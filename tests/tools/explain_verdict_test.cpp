@@ -123,7 +123,8 @@ TEST_CASE("ICP that leaves a good proposal is named", "[explain]") {
   CHECK(cause_of(at) == Cause::kMoved);
 }
 
-TEST_CASE("a pose that was judged: refused by a clue, robbed, or too near", "[explain]") {
+TEST_CASE("a pose that was judged: refused by a clue, robbed, too near, or in another",
+          "[explain]") {
   Standing at = good();
   at.judged.confidence = at.left.confidence = 0.3;
   at.judged.against[kOutline] = 2;
@@ -144,6 +145,10 @@ TEST_CASE("a pose that was judged: refused by a clue, robbed, or too near", "[ex
   CHECK(cause_of(at) == Cause::kTooNear);
   at.near_same = 0.5;
   CHECK(cause_of(at) == Cause::kTaken);
+  Case of = missed(at);
+  of.pose->inside = 0.4;
+  of.overlap = 0.1;
+  CHECK(judge_case(of).cause == Cause::kInside);
 }
 
 TEST_CASE("a model of another unit is named before anything else", "[explain]") {

@@ -79,6 +79,8 @@ std::vector<std::string> settings_for(const Explained& one, const poses::Segment
       return {format("segment_objects.icp_distance=%.3g", params.icp_distance / 2)};
     case Cause::kTooNear:
       return {format("segment_objects.nms=%.3g", params.nms / 2)};
+    case Cause::kInside:
+      return {"segment_objects.overlap=1"};
     default:
       return {};
   }

@@ -158,6 +158,7 @@ class Explainer {
     of.matches = taps_.correspondences[i].scene_feature.size();
     of.min_confidence = bench_.params.min_confidence;
     of.min_score = bench_.params.min_score;
+    of.overlap = bench_.params.overlap;
     of.nms_radius = bench_.params.nms * of.diagonal;
     of.pose = one.best;
     one.guess = judge_case(of);

@@ -162,6 +162,11 @@ std::string cause_of(const Verdict& verdict, const Case& of) {
           "one of its kind was found %.1f mm from it, nearer than segment_objects.nms "
           "allows (%.1f mm)",
           1000 * at.near_same.value_or(0), 1000 * of.nms_radius);
+    case Cause::kInside:
+      return format(
+          "%d %% of its surface lies in instances that were found, more than "
+          "segment_objects.overlap allows (%d %%): bodies are solid",
+          percent(at.inside), percent(of.overlap));
     case Cause::kRefused:
       return refused_sentence(at, verdict, of);
     case Cause::kAbsent:

@@ -265,6 +265,7 @@ Standing Bench::stand(std::size_t object, const Eigen::Isometry3d& T_scene_model
   take_out_doubtful(object, alike, left);
   Eigen::Isometry3d T_left;
   standing.left = judge(object, left, standing, T_left);
+  standing.inside = left.share_inside(sought.model, T_left);
   standing.moved = alike.distance(standing.T_refined);
   standing.turned = alike.turn(standing.T_refined);
   standing.stayed = alike.is_near(standing.T_refined);

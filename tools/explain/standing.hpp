@@ -60,6 +60,7 @@ struct Standing {
   bool stayed = true;               ///< near where it began
   std::string taker;                ///< the instance that took most of its points
   double taken = 0;                 ///< share of the supported points that others took
+  double inside = 0;                ///< share of its surface that lies in instances found
   std::optional<double> near_same;  ///< distance of the next found one of its kind [m]
   Eigen::Isometry3d T_near_same = Eigen::Isometry3d::Identity();  ///< that one, if there is any
 

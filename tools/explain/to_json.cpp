@@ -68,7 +68,8 @@ Json to_json(const Standing& standing) {
             {"turned_rad", standing.turned},
             {"stayed", standing.stayed},
             {"taken", standing.taken},
-            {"taker", standing.taker}};
+            {"taker", standing.taker},
+            {"inside", standing.inside}};
   if (standing.near_same) json["nearest_found_m"] = *standing.near_same;
   return json;
 }

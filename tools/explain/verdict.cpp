@@ -53,6 +53,7 @@ bool has_odd_size(const Case& of) {
 /// Of a pose that was judged, or would have been sure enough.
 Verdict judge_refused(const Case& of, const Standing& at) {
   if (at.near_same && *at.near_same < of.nms_radius) return {Cause::kTooNear, "", ""};
+  if (at.inside > of.overlap) return {Cause::kInside, "", ""};
   if (at.judged.confidence >= of.min_confidence && at.left.confidence < of.min_confidence &&
       at.taken > kMuchTaken)
     return {Cause::kTaken, at.taker, ""};
@@ -111,11 +112,11 @@ const Judged& deciding(const Standing& at, const Case& of) {
 }
 
 const char* name_of(Cause cause) {
-  constexpr std::array<const char*, 15> kNames{
-      "found",     "scan failed",  "model left out", "unit",
-      "not seen",  "few features", "not matched",    "matches do not agree",
-      "outranked", "moved by ICP", "points taken",   "too near to another",
-      "refused",   "no trace",     "absent"};
+  constexpr std::array<const char*, 16> kNames{
+      "found",        "scan failed",         "model left out",       "unit",      "not seen",
+      "few features", "not matched",         "matches do not agree", "outranked", "moved by ICP",
+      "points taken", "too near to another", "inside of others",     "refused",   "no trace",
+      "absent"};
   return kNames.at(static_cast<std::size_t>(cause));
 }
 

@@ -26,6 +26,7 @@ enum class Cause {
   kMoved,        ///< ICP carried it away, or ended beside it
   kTaken,        ///< another instance took its points
   kTooNear,      ///< another instance of its kind closed its place
+  kInside,       ///< too much of it lies in instances that were found
   kRefused,      ///< it was judged, and found not sure enough
   kNoTrace,      ///< no candidate that may be it, and nobody says where it is
   kAbsent,       ///< the true poses say that it is not in the scan
@@ -44,6 +45,7 @@ struct Case {
   std::size_t matches = 0;  ///< of the object in the whole scan
   double min_confidence = 0.5, min_score = 0.1;
   double nms_radius = 0;         ///< [m]
+  double overlap = 1;            ///< share of a surface that may lie in other instances
   bool is_absent = false;        ///< known not to be there
   bool is_true = false;          ///< whether the pose is known to be right
   std::optional<Standing> pose;  ///< that is looked at; none: there is no candidate
