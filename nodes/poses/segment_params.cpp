@@ -99,6 +99,8 @@ void check_model(const Model& model) {
     throw std::runtime_error("model " + model.name + " has " +
                              std::to_string(model.cloud.points.rows()) + " points but " +
                              std::to_string(model.outline.ends.size()) + " in its outline");
+  if (model.outline.hull.cols() == 0)
+    throw std::runtime_error("model " + model.name + " has no outermost points in its outline");
   for (const NearSymmetry& one : model.near_symmetries.items)
     if (!one.is_within(model.cloud.points.rows()))
       throw std::runtime_error("model " + model.name + " has " +
