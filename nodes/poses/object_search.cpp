@@ -80,13 +80,13 @@ void ObjectSearch::choose_best() {
     const bool is_promising = is_convincing(sought_, *best_);
     if (is_promising) polish(sought_, *best_);
     best_->symmetries = symmetries_left(sought_, *best_);
-    if (is_promising && is_convincing(sought_, *best_) &&
-        taken_.is_clear(sought_, best_->T_scene_model)) {
+    const bool is_clear = taken_.is_clear(sought_, best_->T_scene_model);
+    if (is_clear && is_promising && is_convincing(sought_, *best_)) {
       best_->covariance = pose_covariance(sought_, best_->T_scene_model);
       return;
     }
+    if (is_clear) refused_.push_back(*best_);
   }
-  if (best_ && taken_.is_clear(sought_, best_->T_scene_model)) refused_.push_back(*best_);
   best_.reset();
   pool_.clear();
 }

@@ -22,7 +22,7 @@ class TakenPlaces {
   /// Where it is, and where it was proposed.
   void take(const Model& model, const Candidate& instance);
   bool is_clear(const Eigen::Vector3f& center) const;
-  /// Whether the place of a pose is, and it has room beside what was found of other objects, too.
+  /// Whether the place of a pose is, and whether it has room beside the instances of all objects.
   bool is_clear(const Sought& sought, const Eigen::Isometry3d& T_scene_model) const;
 
  private:

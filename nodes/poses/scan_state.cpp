@@ -65,7 +65,7 @@ void ScanState::learn_from(const Model& model, const Candidate& instance) {
 double ScanState::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model) const {
   double share = 0;
   for (const Solid& solid : solids_) share += solid.share_inside(model.cloud, T_scene_model);
-  return share;
+  return std::min(share, 1.0);  // instances that overlap have some points both
 }
 
 double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_model) const {

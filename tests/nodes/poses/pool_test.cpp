@@ -75,6 +75,9 @@ TEST_CASE("bodies are solid: where one was found, another object has no room", "
   poses::Sought hollow = body.sought();
   hollow.params.overlap = 1;
   CHECK(none.is_clear(hollow, beside(0.3 * width)));
+  for (int i = 0; i < 10; ++i) body.scan.learn_from(body.model, instance);
+  CHECK(body.scan.share_inside(body.model, beside(0.3 * width)) == 1);
+  CHECK(none.is_clear(hollow, beside(0.3 * width)));
 }
 
 TEST_CASE("once judged, the best stands for its place, with the highest support there", "[poses]") {
