@@ -22,12 +22,13 @@ enum Clue : std::size_t {
                ///< closely
   kFilled,     ///< share of its holes and slots in which the scan has a surface, times kSupport
   kVisible,    ///< log of the share of what turns to the sensor that nothing hides
+  kSunk,       ///< share of its surface that lies in the ground
   kClueCount
 };
 
 constexpr std::array<const char*, kClueCount> kClueNames{
-    "agreement", "relief",  "outline", "overhang", "votes",  "lead",
-    "exactness", "support", "gaps",    "filled",   "visible"};
+    "agreement", "relief",  "outline", "overhang", "votes",   "lead",
+    "exactness", "support", "gaps",    "filled",   "visible", "sunk"};
 
 using Clues = std::array<double, kClueCount>;
 

@@ -8,8 +8,6 @@ namespace {
 
 constexpr float kFarther = 2.5F;  // x reach: where ICP begins to look
 
-float squared(float value) { return value * value; }
-
 }  // namespace
 
 OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T) {
@@ -22,7 +20,7 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
     : gone_(static_cast<std::size_t>(scan.points.rows()), 0),
       viewpoint_(scan.view.origin),
       single_view_(single_view),
-      facing_squared_(squared(static_cast<float>(terms.least_facing_cosine))),
+      facing_cosine_(static_cast<float>(terms.least_facing_cosine)),
       normal_cosine_(static_cast<float>(terms.least_normal_cosine)),
       reach_(reach),
       near_(scan.points, reach),
@@ -39,11 +37,10 @@ void ScanSurface::take_out(const std::vector<char>& explained) {
     gone_[i] = static_cast<char>(gone_[i] | explained[i]);
 }
 
-bool ScanSurface::faces_sensor(const OrientedPoint& p) const {
-  if (!single_view_) return p.normal.squaredNorm() > 0;
-  const Eigen::Vector3f to_sensor = viewpoint_ - p.point;
-  const float along = p.normal.dot(to_sensor);
-  return along > 0 && along * along > facing_squared_ * to_sensor.squaredNorm();
+float ScanSurface::facing_cosine(const OrientedPoint& p) const {
+  if (!single_view_) return p.normal.squaredNorm() > 0 ? 1 : 0;
+  const float cosine = p.normal.dot((viewpoint_ - p.point).normalized());
+  return cosine > facing_cosine_ ? cosine : 0;
 }
 
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,

@@ -41,8 +41,10 @@ class ScanSurface {
   /// Whether a point was taken out, or had no normal from the start.
   bool is_gone(std::size_t row) const { return gone_[row] != 0; }
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
-  /// Whether a surface with this orientation turns its outside to the sensor.
-  bool faces_sensor(const OrientedPoint& p) const;
+  /// The cosine between a surface's normal and the way to the sensor, which is how large it looks
+  /// there; 0 where it does not turn its outside to the sensor. 1 where no single sensor is known.
+  float facing_cosine(const OrientedPoint& p) const;
+  bool faces_sensor(const OrientedPoint& p) const { return facing_cosine(p) > 0; }
   /// The nearest scan point, at most `distance` away, if its normal agrees with p's.
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
   /// Which of the scan's that is.
@@ -55,7 +57,7 @@ class ScanSurface {
   std::vector<char> gone_;             // per row: explained or without a normal
   Eigen::Vector3f viewpoint_;
   bool single_view_;
-  float facing_squared_, normal_cosine_;  // least
+  float facing_cosine_, normal_cosine_;  // least
   float reach_;
   NearestIndex near_, far_;  // for distances up to reach_, and beyond
 };

@@ -23,6 +23,7 @@ struct Backing {
   /// usually have.
   std::optional<double> votes_per_feature;
   double lead = 1;  ///< its support over that of the best proposal elsewhere
+  double sunk = 0;  ///< the share of its surface that lies in the ground
 };
 
 /// Of a pose of quality > 0.

@@ -12,6 +12,9 @@
 namespace posevote::poses {
 namespace {
 
+/// A cosine, 70 deg: sensors may miss what they see at a more grazing angle, wherever it is.
+constexpr float kGrazing = 0.35F;
+
 /// Of the tolerance, by which a surface may be lower or higher than a pose that fits exactly.
 constexpr float kSomeHeight = 0.1F;
 
@@ -19,6 +22,7 @@ enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHi
 
 struct Judged {
   Verdict verdict = Verdict::kAway;
+  float apparent = 0;  // size
   double residual = 0;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
@@ -36,15 +40,19 @@ struct Sensed {
 };
 
 Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
-  if (!sensed.scan.faces_sensor(p)) return {};
+  const float apparent = sensed.scan.facing_cosine(p);
+  if (apparent == 0) return {};
   if (const auto partner = sensed.scan.nearest_compatible(p, sensed.tolerance))
-    return {Verdict::kSupported,
+    return {Verdict::kSupported, apparent,
             static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
   const float measured = sensed.view.measured_range(p.point);
-  if (measured == 0) return {sensed.view.is_outside(p.point) ? Verdict::kHidden : Verdict::kUnseen};
+  if (measured == 0) {
+    if (sensed.view.is_outside(p.point)) return {Verdict::kHidden};
+    return {Verdict::kUnseen, apparent < kGrazing ? 0 : apparent};
+  }
   const float before = measured - (p.point - sensed.scan.viewpoint()).norm();
-  if (before > sensed.clear_distance) return {Verdict::kContradicted};
-  return {before < -sensed.clear_distance ? Verdict::kHidden : Verdict::kMismatched};
+  if (before > sensed.clear_distance) return {Verdict::kContradicted, apparent};
+  return {before < -sensed.clear_distance ? Verdict::kHidden : Verdict::kMismatched, apparent};
 }
 
 /// Of a place where the model's surface is no more: what the scan's does there.
@@ -95,11 +103,17 @@ Fit count(const std::vector<Judged>& points) {
     squared += point.residual * point.residual;
     const Eigen::Vector3d normal = point.normal.cast<double>();
     normals += normal * normal.transpose();
-    fit.supported += point.verdict == Verdict::kSupported;
-    fit.contradicted += point.verdict == Verdict::kContradicted;
-    fit.mismatched += point.verdict == Verdict::kMismatched;
-    fit.unseen += point.verdict == Verdict::kUnseen;
-    fit.hidden += point.verdict == Verdict::kHidden;
+    const auto add = [&](Verdict verdict, std::size_t& count, double& apparent) {
+      if (point.verdict != verdict) return;
+      ++count;
+      apparent += static_cast<double>(point.apparent);
+    };
+    double hidden = 0;  // takes no side
+    add(Verdict::kSupported, fit.supported, fit.apparent.supported);
+    add(Verdict::kContradicted, fit.contradicted, fit.apparent.contradicted);
+    add(Verdict::kMismatched, fit.mismatched, fit.apparent.mismatched);
+    add(Verdict::kUnseen, fit.unseen, fit.apparent.mismatched);
+    add(Verdict::kHidden, fit.hidden, hidden);
   }
   if (fit.supported == 0) return fit;
   fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);
@@ -117,12 +131,6 @@ void add(const std::vector<Beside>& points, Fit& fit) {
     fit.holes += point.holes;
     fit.filled_holes += point.filled_holes;
   }
-}
-
-/// How many points speak against the pose.
-double against(const Fit& fit, const FitTerms& terms) {
-  return static_cast<double>(fit.contradicted) +
-         terms.mismatch_weight * static_cast<double>(fit.mismatched + fit.unseen);
 }
 
 }  // namespace
@@ -171,19 +179,21 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::vector<Judged> judged;
   judged.reserve(points.size());
-  for (const std::uint32_t i : points)
+  for (const std::uint32_t i : points) {
     judged.push_back(judge(geometry::posed_point(model, i, T), sensed));
+    judged.back().apparent = 1;  // all alike, so that their number tells how sure the balance is
+  }
   const Fit fit = count(judged);
-  return {static_cast<double>(fit.supported) - against(fit, terms), fit.facing - fit.hidden};
+  return {fit.apparent.supported - fit.apparent.against(terms), fit.facing - fit.hidden};
 }
 
 // quality = agreement x evidence x continuity.
 //
-// Agreement is the share of supporters among the points that take a side. Points that are hidden,
-// or beside the image, take none, so a true pose of which a tenth is visible still agrees. A point
-// that the sensor saw through speaks fully against the pose; one that met another surface or no
-// measurement counts half, because noise, clutter in contact and drop-outs do that to true poses
-// too.
+// Agreement is the share of supporters among the points that take a side, as large as they look.
+// Points that are hidden, beside the image, or missed at a grazing angle take none, so a true pose
+// of which a tenth is visible still agrees. A point that the sensor saw through speaks fully
+// against the pose; one that met another surface or no measurement counts half, because noise,
+// clutter in contact and drop-outs do that to true poses too.
 //
 // Agreement alone would let a body sunk into a table grade high: its cap is supported, the rest is
 // hidden. Evidence is therefore what the support could only show by fitting: the supported share of
@@ -209,7 +219,8 @@ FitShares shares_of(const Fit& fit, const FitTerms& terms) {
   const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
   const auto gaps = static_cast<double>(fit.gaps), filled = static_cast<double>(fit.filled);
   const double few = terms.few_ends * looks;
-  return {supported / (supported + against(fit, terms)), (ends - overhang) / looks,
+  const double agreeing = fit.apparent.supported;
+  return {agreeing / (agreeing + fit.apparent.against(terms)), (ends - overhang) / looks,
           1 - overhang / (ends + few), (gaps - filled) / looks,
           static_cast<double>(fit.filled_holes) / (static_cast<double>(fit.holes) + few)};
 }

@@ -28,9 +28,22 @@
 
 namespace posevote::poses {
 
+/// How large what takes a side looks from the sensor, in points seen head-on: a point counts by the
+/// cosine between its normal and the way there. Of a grazing side a sensor measures few points, and
+/// those badly, so it must not outvote a face that is seen whole.
+struct Sides {
+  double supported = 0, contradicted = 0;
+  double mismatched = 0;  ///< or unseen, but for what looks too grazing to be measured
+
+  double against(const FitTerms& terms) const {
+    return contradicted + terms.mismatch_weight * mismatched;
+  }
+};
+
 struct Fit {
   std::size_t facing = 0;  ///< all of the below
   std::size_t supported = 0, contradicted = 0, mismatched = 0, unseen = 0, hidden = 0;
+  Sides apparent;                    ///< of these
   std::size_t ends = 0;              ///< places beside the supported where the model's surface ends
   std::size_t overhang = 0;          ///< of those, where the scan's surface goes on
   std::size_t gaps = 0, filled = 0;  ///< the same of gaps (Outline), where they are looked into

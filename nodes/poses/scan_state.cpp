@@ -29,6 +29,7 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
       resolution(resolution_m),
       view(scan, resolution_m, terms.view),
       surface(scan, view.usable(), kSearchCell * resolution_m, terms.surface),
+      ground(scan, kSkin * resolution_m),
       feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0),
       look(scan) {}
 

@@ -11,6 +11,7 @@
 #include "nodes/geometry/scan_surface.hpp"
 #include "nodes/poses/candidate.hpp"
 #include "nodes/poses/color_fit.hpp"
+#include "nodes/poses/ground.hpp"
 #include "nodes/poses/solid.hpp"
 #include "nodes/poses/terms.hpp"
 #include "nodes/poses/usual_residual.hpp"
@@ -48,6 +49,7 @@ struct ScanState {
   float resolution;  // [m]
   geometry::RangeView view;
   geometry::ScanSurface surface;
+  Ground ground;
   std::vector<char> feature_explained;  // per scene feature
   int takes = 0;                        // how often something was taken out
   UsualResidual usual_residual;         // of what was found

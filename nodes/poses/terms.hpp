@@ -55,9 +55,10 @@ struct ScoreTerms {
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
 /// fitted (posevote calibrate) on the 184 images of configs/calibration_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -23.59;
+  double offset = -20.15;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{1.602, 0.5879, 1.281, -5.314, 0.7029, 0.6433, 13.33, 2.555, 1.505, -0.1568, 0.5762};
+  Clues weights{2.023, 0.7205, 1.466, -5.553,  0.5091, 0.6813,
+                10.86, 2.034,  1.032, -0.5458, 0.5833, -11.79};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

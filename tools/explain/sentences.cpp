@@ -16,21 +16,18 @@ int percent(double share) { return static_cast<int>(std::lround(100 * share)); }
 
 /// What a clue says when it is against a pose.
 const char* meaning_of(const std::string& clue) {
-  constexpr std::array<const char*, kClueCount> kMeanings{
-      "the sensor saw something else where the object should be",
-      "what is seen of it is nearly flat",
-      "little of its outline is met by the scan's",
-      "the scan goes on where the object should end",
-      "few of the features on it voted for it",
-      "other places have as many votes",
-      "it lies off by more than the scan's other instances",
-      "few of its points are seen",
-      "its holes, slots and edges are not met by the scan's",
-      "the scan has a surface where the object has holes",
-      "much of it is hidden"};
+  constexpr auto kMeanings = std::to_array<const char*>(
+      {"the sensor saw something else where the object should be",
+       "what is seen of it is nearly flat", "little of its outline is met by the scan's",
+       "the scan goes on where the object should end", "few of the features on it voted for it",
+       "other places have as many votes", "it lies off by more than the scan's other instances",
+       "few of its points are seen", "its holes, slots and edges are not met by the scan's",
+       "the scan has a surface where the object has holes", "much of it is hidden",
+       "much of it would lie in the ground"});
+  static_assert(kMeanings.size() == kClueCount);
   const auto at = std::find(kClueNames.begin(), kClueNames.end(), clue);
   if (at == kClueNames.end()) return "its colours are not those that the camera saw";
-  return kMeanings.at(static_cast<std::size_t>(at - kClueNames.begin()));
+  return kMeanings[static_cast<std::size_t>(at - kClueNames.begin())];
 }
 
 std::string seen_sentence(const Standing& at) {

@@ -15,6 +15,7 @@ namespace {
 poses::Fit good_fit() {
   poses::Fit fit;
   fit.facing = fit.supported = 1000;
+  fit.apparent.supported = 800;
   fit.ends = 400, fit.gaps = 500;
   fit.inlier_fraction = 1;
   fit.relief = 0.5;
@@ -32,7 +33,7 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   const double usual = believed(good_fit());
   CHECK(usual > 0.98);
   poses::Fit fit = good_fit();
-  fit.contradicted = 800, fit.facing = 1800;
+  fit.apparent.contradicted = 640;
   CHECK(believed(fit) < usual);
   fit = good_fit();
   fit.overhang = 80;
@@ -49,6 +50,7 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   CHECK(believed(good_fit(), {0.6, 0.5, 2}) < usual);
   CHECK(believed(good_fit(), {1, 0.01, 2}) < usual);
   CHECK(believed(good_fit(), {1, 0.5, 0.5}) < usual);
+  CHECK(believed(good_fit(), {1, 0.5, 2, 0.4}) < usual);
 }
 
 TEST_CASE("a sample of the points makes the same clues", "[poses]") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "tests/support/box_cloud.hpp"
 #include "tests/support/bumpy_scene.hpp"
 
 using namespace posevote;
@@ -54,6 +55,27 @@ TEST_CASE("named points weigh what they say of a pose", "[poses]") {
                                   0.5 * count(fit.mismatched + fit.unseen));
   }
   CHECK(weigh(kBody.T_scene_model, {}).sides == 0);
+}
+
+TEST_CASE("a side counts as large as it looks, or not at all where none need be measured",
+          "[poses]") {
+  constexpr float kEdge = 0.1F, kSpacing = 0.002F, kRange = 0.8F;  // [m]
+  const Cloud box = box_cloud(Eigen::Vector3f::Constant(kEdge), kSpacing);
+  // Of a box so far beside the sensor the front was measured, and something else, not its side.
+  const auto fit_beside = [&](float x) {
+    std::vector<Eigen::RowVector3f> points, normals;
+    for (const Eigen::Vector3f& center :
+         {Eigen::Vector3f(x, 0, kRange - 0.5F * kEdge), Eigen::Vector3f(-0.1F, 0, kRange)})
+      add_rectangle(points, normals, center, {0, kEdge, 0}, {kEdge, 0, 0}, kSpacing);
+    const Eigen::Isometry3d T(Eigen::Translation3d(double(x), 0, double(kRange)));
+    return fit_of(box, geometry::cloud_of(points, normals), T);
+  };
+  const poses::Fit grazing = fit_beside(0.15F), plain = fit_beside(0.5F);
+  for (const poses::Fit& fit : {grazing, plain}) CHECK(fit.unseen > fit.facing / 3);
+  CHECK(grazing.apparent.supported > 0.95 * double(grazing.supported));
+  CHECK(grazing.apparent.mismatched < 0.02 * double(grazing.unseen));  // at its rim
+  CHECK(plain.apparent.supported == Approx(0.83 * double(plain.supported)).epsilon(0.05));
+  CHECK(plain.apparent.mismatched == Approx(0.5 * double(plain.unseen)).epsilon(0.1));
 }
 
 TEST_CASE("a body before what was measured is contradicted", "[poses]") {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/ground.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "nodes/geometry/plane_fit.hpp"
+#include "nodes/geometry/spread.hpp"
+
+namespace posevote::poses {
+namespace {
+
+using Plane = Eigen::Hyperplane<float, 3>;
+
+constexpr std::size_t kTrials =
+    100;  // find a plane of a twentieth of the points in 99 of 100 scans
+constexpr std::size_t kLeastShare = 20;
+constexpr float kAlike = 0.9F;          // cosine, of normals
+constexpr float kRough = 3;             // x depth; a plane by one point's normal is off by that
+constexpr Eigen::Index kSample = 1000;  // points of a model
+constexpr float kSteep = 0.5F;          // sine to the plane, of what goes into it
+constexpr float kBeside = 3;            // x depth; so far beside the model the ground is looked for
+constexpr float kSeen = 0.2F;           // of these places, at least
+
+/// The points of the scan on a plane.
+std::vector<std::size_t> points_on(const Plane& plane, const Cloud& scan,
+                                   const std::vector<std::size_t>& sample, float distance) {
+  std::vector<std::size_t> on;
+  for (const std::size_t i : sample) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (plane.absDistance(scan.points.row(row).transpose()) <= distance &&
+        plane.normal().dot(scan.normals.row(row)) > kAlike)
+      on.push_back(i);
+  }
+  return on;
+}
+
+Plane plane_at(const Cloud& scan, std::size_t i) {
+  const auto row = static_cast<Eigen::Index>(i);
+  return {scan.normals.row(row).transpose(), scan.points.row(row).transpose()};
+}
+
+/// The plane of least squares; its normal on the side of that of `like`.
+Plane fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows, const Plane& like) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const std::size_t i : rows)
+    mean += scan.points.row(static_cast<Eigen::Index>(i)).transpose().cast<double>();
+  mean /= static_cast<double>(rows.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const std::size_t i : rows) {
+    const Eigen::Vector3d off =
+        scan.points.row(static_cast<Eigen::Index>(i)).transpose().cast<double>() - mean;
+    covariance += off * off.transpose();
+  }
+  Eigen::Vector3f up =
+      geometry::spread_of(covariance / static_cast<double>(rows.size())).across.cast<float>();
+  if (up.isZero()) return like;
+  if (up.dot(like.normal()) < 0) up = -up;
+  return {up.normalized(), Eigen::Vector3f(mean.cast<float>())};
+}
+
+}  // namespace
+
+Ground::Ground(const Cloud& scan, float depth)
+    : depth_(depth), viewpoint_(scan.view.origin), plane_(Eigen::Vector3f::UnitZ(), 0) {
+  const std::vector<std::size_t> sample =
+      geometry::sample_of(static_cast<std::size_t>(scan.points.rows()));
+  std::vector<std::size_t> most;
+  for (std::size_t trial = 0; trial < kTrials && !sample.empty(); ++trial) {
+    const Plane plane = plane_at(scan, sample[trial * sample.size() / kTrials]);
+    std::vector<std::size_t> on = points_on(plane, scan, sample, kRough * depth);
+    if (on.size() <= most.size()) continue;
+    most = std::move(on);
+    plane_ = plane;
+  }
+  if (most.size() * kLeastShare < sample.size() || most.size() < 3) return;
+  plane_ = fit_plane(scan, most, plane_);
+  const std::vector<std::size_t> close = points_on(plane_, scan, sample, depth);
+  if (close.size() < 3) return;
+  plane_ = fit_plane(scan, close, plane_);
+  is_there_ = true;
+}
+
+double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                            const geometry::RangeView& view) const {
+  if (!is_there_) return 0;
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const Eigen::RowVector3f up = plane_.normal().transpose() * T.linear();
+  const float height = plane_.signedDistance(T.translation());
+  const Eigen::RowVectorXf heights = (up * model.outline.hull).array() + height;
+  if (heights.minCoeff() >= -depth_ || heights.maxCoeff() <= depth_) return 0;
+  const Eigen::Index stride = model.cloud.points.rows() / kSample + 1;
+  double inside = 0, all = 0;
+  for (Eigen::Index i = 0; i < model.cloud.points.rows(); i += stride, ++all)
+    inside += up.dot(model.cloud.points.row(i)) + height < -depth_;
+  return inside > 0 && is_seen_around(model.cloud, T, view) ? inside / all : 0;
+}
+
+bool Ground::is_seen_around(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
+                            const geometry::RangeView& view) const {
+  float places = 0, seen = 0, gone = 0;
+  const Eigen::Index stride = model.points.rows() / kSample + 1;
+  for (Eigen::Index i = 0; i < model.points.rows(); i += stride) {
+    const Eigen::Vector3f point = T_scene_model * model.points.row(i).transpose();
+    if (plane_.absDistance(point) > depth_) continue;
+    const Eigen::Vector3f normal = T_scene_model.linear() * model.normals.row(i).transpose();
+    const Eigen::Vector3f side = normal - normal.dot(plane_.normal()) * plane_.normal();
+    if (side.norm() < kSteep) continue;
+    ++places;
+    const Eigen::Vector3f beside = plane_.projection(point) + kBeside * depth_ * side.normalized();
+    const float measured = view.measured_range(beside);
+    if (measured == 0) continue;
+    const Eigen::Vector3f ray = beside - viewpoint_;
+    const float height = plane_.signedDistance(viewpoint_ + measured * ray.normalized());
+    seen += std::abs(height) <= depth_;
+    gone += height < -depth_;
+  }
+  return seen > gone && seen >= kSeen * places;
+}
+
+}  // namespace posevote::poses

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ground on which things stand: the largest plane that a scan shows. A pose with much of the
+// model below it, where the ground is seen all around, is that of something lower: a carton put on
+// a box that is half as high.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "nodes/data/cloud.hpp"
+#include "nodes/data/model.hpp"
+#include "nodes/geometry/range_view.hpp"
+
+namespace posevote::poses {
+
+class Ground {
+ public:
+  /// `depth`: how far below the plane the ground begins [m]; so far its points may be off, too.
+  /// There is none where no plane has a twentieth of the scan's points.
+  Ground(const Cloud& scan, float depth);
+
+  /// The share of the posed model's points that lie in the ground; of some 1000, evenly chosen. 0
+  /// where the ground is not seen beside where the model would go into it: in the recesses of
+  /// trays, beyond edges, behind other things; and of what does not rise above the plane, which may
+  /// be its own face: in a bin full of cartons their lids are the largest plane.
+  double share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
+                      const geometry::RangeView& view) const;
+
+ private:
+  using Plane = Eigen::Hyperplane<float, 3>;
+
+  bool is_seen_around(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
+                      const geometry::RangeView& view) const;
+
+  float depth_;
+  Eigen::Vector3f viewpoint_;
+  bool is_there_ = false;
+  Plane plane_;  // normal up, to the sensor
+};
+
+}  // namespace posevote::poses

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/ground.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "nodes/geometry/extreme_points.hpp"
+#include "tests/support/box_cloud.hpp"
+
+using namespace posevote;
+
+namespace {
+
+constexpr float kEdge = 0.1F, kSpacing = 0.002F, kDepth = 2 * kSpacing;  // [m]
+
+Model cube() {
+  Model model;
+  model.cloud = test::box_cloud(Eigen::Vector3f::Constant(kEdge), kSpacing);
+  model.outline.hull = geometry::extreme_points(model.cloud.points).cast<float>();
+  return model;
+}
+
+/// A table 1 m before the sensor, 0.4 m wide, and what else `add` puts there.
+template <typename Add>
+Cloud table(const Add& add) {
+  std::vector<Eigen::RowVector3f> points, normals;
+  add(points, normals);
+  test::add_rectangle(points, normals, {0, 0, 1}, {0, 0.4F, 0}, {0.4F, 0, 0}, kSpacing);
+  return geometry::cloud_of(points, normals);
+}
+
+Cloud table() {
+  return table([](auto&, auto&) {});
+}
+
+double share(const Cloud& scan, float x, float z) {
+  const geometry::RangeView view(scan, kSpacing);
+  REQUIRE(view.usable());
+  return poses::Ground(scan, kDepth)
+      .share_inside(cube(), Eigen::Isometry3d(Eigen::Translation3d(double(x), 0, double(z))), view);
+}
+
+}  // namespace
+
+TEST_CASE("what stands on the ground is not in it, what is put lower is", "[poses]") {
+  const Cloud scan = table();
+  CHECK(share(scan, 0, 1 - 0.5F * kEdge) == 0);
+  CHECK(share(scan, 0, 1 - 0.5F * kEdge + 0.8F * kDepth) == 0);  // nearly
+  CHECK(share(scan, 0, 1 - 2 * kEdge) == 0);
+  CHECK(share(scan, 0, 1) == Approx(0.5).margin(0.05));
+  CHECK(share(scan, 0.1F, 1) == share(scan, 0, 1));
+}
+
+TEST_CASE("the ground says nothing where it is not seen", "[poses]") {
+  CHECK(share(table(), 0.4F, 1) == 0);           // beside the table
+  CHECK(share(table(), 0, 1 + 2 * kEdge) == 0);  // below it
+  const Cloud covered = table([](auto& points, auto& normals) {
+    test::add_rectangle(points, normals, {0, 0, 0.8F}, {0, 0.2F, 0}, {0.2F, 0, 0}, kSpacing);
+  });
+  CHECK(share(covered, 0, 1) == 0);
+}
+
+TEST_CASE("a face that lies in the largest plane is no ground", "[poses]") {
+  CHECK(share(table(), 0, 1 + 0.5F * kEdge) == 0);
+}
+
+TEST_CASE("where nothing is flat there is no ground", "[poses]") {
+  Cloud scan = table();
+  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
+    const float slope = std::sin(static_cast<float>(17 * i)),
+                other = std::cos(static_cast<float>(i));
+    scan.normals.row(i) = Eigen::RowVector3f(slope, other, -1).normalized();
+  }
+  CHECK(poses::Ground(scan, 1e-5F)
+            .share_inside(cube(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1)),
+                          geometry::RangeView(scan, kSpacing)) == 0);
+  CHECK(poses::Ground(Cloud(), kDepth)
+            .share_inside(cube(), Eigen::Isometry3d::Identity(),
+                          geometry::RangeView(scan, kSpacing)) == 0);
+}
