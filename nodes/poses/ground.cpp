@@ -12,15 +12,14 @@ namespace {
 
 using Plane = Eigen::Hyperplane<float, 3>;
 
-constexpr std::size_t kTrials =
-    100;  // find a plane of a twentieth of the points in 99 of 100 scans
-constexpr std::size_t kLeastShare = 20;
-constexpr float kAlike = 0.9F;          // cosine, of normals
-constexpr float kRough = 3;             // x depth; a plane by one point's normal is off by that
-constexpr Eigen::Index kSample = 1000;  // points of a model
-constexpr float kSteep = 0.5F;          // sine to the plane, of what goes into it
-constexpr float kBeside = 3;            // x depth; so far beside the model the ground is looked for
-constexpr float kSeen = 0.2F;           // of these places, at least
+constexpr std::size_t kTrials = 100;     // find what is on one point of 20 in 99 of 100 scans
+constexpr std::size_t kLeastShare = 20;  // one point of so many
+constexpr float kAlike = 0.9F;           // cosine, of normals
+constexpr float kRough = 3;              // x depth; a plane by one point's normal is off by that
+constexpr Eigen::Index kSample = 1000;   // points of a model
+constexpr float kSteep = 0.5F;           // sine to the plane, of what goes into it
+constexpr float kBeside = 3;   // x depth; so far beside the model the ground is looked for
+constexpr float kSeen = 0.2F;  // of these places, at least
 
 /// The points of the scan on a plane.
 std::vector<std::size_t> points_on(const Plane& plane, const Cloud& scan,
