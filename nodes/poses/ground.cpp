@@ -2,9 +2,11 @@
 #include "nodes/poses/ground.hpp"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "nodes/geometry/plane_fit.hpp"
+#include "nodes/geometry/scan_surface.hpp"
 #include "nodes/geometry/spread.hpp"
 
 namespace posevote::poses {
@@ -58,59 +60,61 @@ Plane fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows, const P
   return {up.normalized(), Eigen::Vector3f(mean.cast<float>())};
 }
 
-}  // namespace
-
-Ground::Ground(const Cloud& scan, float depth)
-    : depth_(depth), viewpoint_(scan.view.origin), plane_(Eigen::Vector3f::UnitZ(), 0) {
+std::optional<Plane> largest_plane(const Cloud& scan, float depth) {
   const std::vector<std::size_t> sample =
       geometry::sample_of(static_cast<std::size_t>(scan.points.rows()));
   std::vector<std::size_t> most;
+  Plane best;
   for (std::size_t trial = 0; trial < kTrials && !sample.empty(); ++trial) {
     const Plane plane = plane_at(scan, sample[trial * sample.size() / kTrials]);
     std::vector<std::size_t> on = points_on(plane, scan, sample, kRough * depth);
     if (on.size() <= most.size()) continue;
     most = std::move(on);
-    plane_ = plane;
+    best = plane;
   }
-  if (most.size() * kLeastShare < sample.size() || most.size() < 3) return;
-  plane_ = fit_plane(scan, most, plane_);
-  const std::vector<std::size_t> close = points_on(plane_, scan, sample, depth);
-  if (close.size() < 3) return;
-  plane_ = fit_plane(scan, close, plane_);
-  is_there_ = true;
+  if (most.size() * kLeastShare < sample.size() || most.size() < 3) return std::nullopt;
+  best = fit_plane(scan, most, best);
+  const std::vector<std::size_t> close = points_on(best, scan, sample, depth);
+  if (close.size() < 3) return std::nullopt;
+  return fit_plane(scan, close, best);
 }
+
+}  // namespace
+
+Ground::Ground(const Cloud& scan, float depth)
+    : depth_(depth), viewpoint_(scan.view.origin), plane_(largest_plane(scan, depth)) {}
 
 double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
                             const geometry::RangeView& view) const {
-  if (!is_there_) return 0;
+  if (!plane_) return 0;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::RowVector3f up = plane_.normal().transpose() * T.linear();
-  const float height = plane_.signedDistance(T.translation());
+  const Eigen::RowVector3f up = plane_->normal().transpose() * T.linear();
+  const float height = plane_->signedDistance(T.translation());
   const Eigen::RowVectorXf heights = (up * model.outline.hull).array() + height;
   if (heights.minCoeff() >= -depth_ || heights.maxCoeff() <= depth_) return 0;
   const Eigen::Index stride = model.cloud.points.rows() / kSample + 1;
   double inside = 0, all = 0;
   for (Eigen::Index i = 0; i < model.cloud.points.rows(); i += stride, ++all)
     inside += up.dot(model.cloud.points.row(i)) + height < -depth_;
-  return inside > 0 && is_seen_around(model.cloud, T, view) ? inside / all : 0;
+  return inside > 0 && is_seen_around(*plane_, model.cloud, T, view) ? inside / all : 0;
 }
 
-bool Ground::is_seen_around(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
+bool Ground::is_seen_around(const Plane& plane, const Cloud& model,
+                            const Eigen::Isometry3f& T_scene_model,
                             const geometry::RangeView& view) const {
   float places = 0, seen = 0, gone = 0;
   const Eigen::Index stride = model.points.rows() / kSample + 1;
   for (Eigen::Index i = 0; i < model.points.rows(); i += stride) {
-    const Eigen::Vector3f point = T_scene_model * model.points.row(i).transpose();
-    if (plane_.absDistance(point) > depth_) continue;
-    const Eigen::Vector3f normal = T_scene_model.linear() * model.normals.row(i).transpose();
-    const Eigen::Vector3f side = normal - normal.dot(plane_.normal()) * plane_.normal();
+    const auto [point, normal] = geometry::posed_point(model, i, T_scene_model);
+    if (plane.absDistance(point) > depth_) continue;
+    const Eigen::Vector3f side = normal - normal.dot(plane.normal()) * plane.normal();
     if (side.norm() < kSteep) continue;
     ++places;
-    const Eigen::Vector3f beside = plane_.projection(point) + kBeside * depth_ * side.normalized();
+    const Eigen::Vector3f beside = plane.projection(point) + kBeside * depth_ * side.normalized();
     const float measured = view.measured_range(beside);
     if (measured == 0) continue;
     const Eigen::Vector3f ray = beside - viewpoint_;
-    const float height = plane_.signedDistance(viewpoint_ + measured * ray.normalized());
+    const float height = plane.signedDistance(viewpoint_ + measured * ray.normalized());
     seen += std::abs(height) <= depth_;
     gone += height < -depth_;
   }

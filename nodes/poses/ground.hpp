@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/data/model.hpp"
@@ -28,13 +29,13 @@ class Ground {
  private:
   using Plane = Eigen::Hyperplane<float, 3>;
 
-  bool is_seen_around(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
+  bool is_seen_around(const Plane& plane, const Cloud& model,
+                      const Eigen::Isometry3f& T_scene_model,
                       const geometry::RangeView& view) const;
 
   float depth_;
   Eigen::Vector3f viewpoint_;
-  bool is_there_ = false;
-  Plane plane_;  // normal up, to the sensor
+  std::optional<Plane> plane_;  // normal up, to the sensor
 };
 
 }  // namespace posevote::poses

@@ -103,17 +103,25 @@ Fit count(const std::vector<Judged>& points) {
     squared += point.residual * point.residual;
     const Eigen::Vector3d normal = point.normal.cast<double>();
     normals += normal * normal.transpose();
-    const auto add = [&](Verdict verdict, std::size_t& count, double& apparent) {
-      if (point.verdict != verdict) return;
-      ++count;
-      apparent += static_cast<double>(point.apparent);
-    };
-    double hidden = 0;  // takes no side
-    add(Verdict::kSupported, fit.supported, fit.apparent.supported);
-    add(Verdict::kContradicted, fit.contradicted, fit.apparent.contradicted);
-    add(Verdict::kMismatched, fit.mismatched, fit.apparent.mismatched);
-    add(Verdict::kUnseen, fit.unseen, fit.apparent.mismatched);
-    add(Verdict::kHidden, fit.hidden, hidden);
+    const auto apparent = static_cast<double>(point.apparent);
+    switch (point.verdict) {
+      case Verdict::kAway:
+        break;
+      case Verdict::kSupported:
+        ++fit.supported, fit.apparent.supported += apparent;
+        break;
+      case Verdict::kContradicted:
+        ++fit.contradicted, fit.apparent.contradicted += apparent;
+        break;
+      case Verdict::kMismatched:
+        ++fit.mismatched, fit.apparent.mismatched += apparent;
+        break;
+      case Verdict::kUnseen:
+        ++fit.unseen, fit.apparent.mismatched += apparent;
+        break;
+      case Verdict::kHidden:
+        ++fit.hidden;
+    }
   }
   if (fit.supported == 0) return fit;
   fit.inlier_fraction = static_cast<double>(fit.supported) / static_cast<double>(fit.facing);

@@ -112,12 +112,12 @@ const Judged& deciding(const Standing& at, const Case& of) {
 }
 
 const char* name_of(Cause cause) {
-  constexpr std::array<const char*, 16> kNames{
-      "found",        "scan failed",         "model left out",       "unit",      "not seen",
-      "few features", "not matched",         "matches do not agree", "outranked", "moved by ICP",
-      "points taken", "too near to another", "inside of others",     "refused",   "no trace",
-      "absent"};
-  return kNames.at(static_cast<std::size_t>(cause));
+  constexpr auto kNames = std::to_array<const char*>(
+      {"found", "scan failed", "model left out", "unit", "not seen", "few features", "not matched",
+       "matches do not agree", "outranked", "moved by ICP", "points taken", "too near to another",
+       "inside of others", "refused", "no trace", "absent"});
+  static_assert(kNames.size() == static_cast<std::size_t>(Cause::kAbsent) + 1);
+  return kNames[static_cast<std::size_t>(cause)];
 }
 
 Verdict judge_case(const Case& of) {
