@@ -16,7 +16,8 @@ enum Clue : std::size_t {
   kOverhang,   ///< share of the outline beyond which the scan goes on, times kSupport
   kVotes,      ///< log of votes per feature on the pose
   kLead,       ///< log of its support over that of the best proposal elsewhere
-  kExactness,  ///< in [0, 1]: 1 if the residual is what other instances of the scan have
+  kExactness,  ///< log of the systematic residual of the scan's other instances over its own,
+               ///< at most 0
   kSupport,    ///< log of how many model points are supported
   kGaps,       ///< log of how much of the model's gaps and outline the scan's meets, looked at
                ///< closely

@@ -39,7 +39,10 @@ void ScanSurface::take_out(const std::vector<char>& explained) {
 
 float ScanSurface::facing_cosine(const OrientedPoint& p) const {
   if (!single_view_) return p.normal.squaredNorm() > 0 ? 1 : 0;
-  const float cosine = p.normal.dot((viewpoint_ - p.point).normalized());
+  const Eigen::Vector3f way = viewpoint_ - p.point;
+  const float along = p.normal.dot(way);
+  if (!(along > 0)) return 0;  // half of all points, without a root
+  const float cosine = along / way.norm();
   return cosine > facing_cosine_ ? cosine : 0;
 }
 

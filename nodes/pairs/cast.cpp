@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/pairs/cast.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -42,30 +43,72 @@ SharedSteps share_steps(const std::vector<const PairTable*>& tables) {
   return steps;
 }
 
-PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Source>& sources,
-                        const PeakOptions& options) {
-  std::vector<std::size_t> first{0};  // of each object's references among all
-  for (const Source& source : sources)
-    first.push_back(first.back() + (source.table ? source.references->size() : 0));
-  std::vector<std::vector<PairPeak>> peaks(first.back());
-  graph::parallel_ranges(peaks.size(), 16, [&](std::size_t begin, std::size_t end) {
+namespace {
+
+/// Objects whose pairs start from the same references in the same scene: what is around those is
+/// looked up once.
+struct Group {
+  std::vector<std::size_t> objects;
+  float reach = 0;  ///< of the farthest [m]
+};
+
+std::vector<Group> group(const std::vector<Source>& sources) {
+  std::vector<Group> groups;
+  for (std::size_t object = 0; object < sources.size(); ++object) {
+    const Source& source = sources[object];
+    if (!source.table) continue;
+    auto at = std::ranges::find_if(groups, [&](const Group& one) {
+      const Source& first = sources[one.objects.front()];
+      return first.scene == source.scene && first.references == source.references;
+    });
+    if (at == groups.end()) at = groups.insert(at, Group{});
+    at->objects.push_back(object);
+    at->reach = std::max(at->reach, source.table->reach());
+  }
+  return groups;
+}
+
+/// Of each object and each of its references.
+using Peaks = std::vector<std::vector<std::vector<PairPeak>>>;
+
+Peaks find_peaks(const std::vector<Source>& sources, const PeakOptions& options) {
+  Peaks peaks(sources.size());
+  struct Start {
+    const Group* group;
+    std::size_t reference;
+  };
+  std::vector<Start> starts;
+  const std::vector<Group> groups = group(sources);
+  for (const Group& one : groups) {
+    const std::size_t references = sources[one.objects.front()].references->size();
+    for (const std::size_t object : one.objects) peaks[object].resize(references);
+    for (std::size_t i = 0; i < references; ++i) starts.push_back({&one, i});
+  }
+  graph::parallel_ranges(starts.size(), 8, [&](std::size_t begin, std::size_t end) {
     PairVotes counter;
-    std::size_t object = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      while (i >= first[object + 1]) ++object;
-      const Source& source = sources[object];
-      peaks[i] = counter.peaks(*source.table, (*source.references)[i - first[object]].frame,
-                               *source.scene, options);
+      const auto [group, reference] = starts[i];
+      const Source& first = sources[group->objects.front()];
+      counter.go_to((*first.references)[reference].frame, *first.scene, group->reach);
+      for (const std::size_t object : group->objects)
+        peaks[object][reference] = counter.peaks(*sources[object].table, options);
     }
   });
+  return peaks;
+}
+
+}  // namespace
+
+PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Source>& sources,
+                        const PeakOptions& options) {
+  const Peaks peaks = find_peaks(sources, options);
   PerObject<VoteSet> votes = given;
   for (std::size_t object = 0; object < sources.size(); ++object) {
-    if (first[object] == first[object + 1]) continue;
+    if (peaks[object].empty()) continue;
     auto more = std::make_shared<VoteSet>(given[object]);
-    for (std::size_t i = first[object]; i < first[object + 1]; ++i)
-      for (const PairPeak& peak : peaks[i])
-        add_vote(*more, *sources[object].table, (*sources[object].references)[i - first[object]],
-                 peak);
+    for (std::size_t i = 0; i < peaks[object].size(); ++i)
+      for (const PairPeak& peak : peaks[object][i])
+        add_vote(*more, *sources[object].table, (*sources[object].references)[i], peak);
     votes.slots[object] = std::move(more);
   }
   return votes;

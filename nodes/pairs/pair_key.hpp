@@ -40,23 +40,34 @@ inline std::uint32_t pair_bins(std::uint32_t lengths) {
 /// place of any plane.
 inline constexpr std::uint32_t kNoBin = 0xFFFFFFFF;
 
-/// The bin of the pair from one point with unit normal `from` to another with unit normal `to`,
-/// `offset` away [m]; lengths are told in steps [m].
-inline std::uint32_t pair_bin(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
-                              const Eigen::Vector3f& offset, float step) {
+/// Angles of no bin.
+inline constexpr std::uint16_t kNoAngles = 0xFFFF;
+
+/// The bins of the three angles of the pair from one point with unit normal `from` to another with
+/// unit normal `to`, `offset` of this `length` away.
+inline std::uint16_t angle_bins(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                                const Eigen::Vector3f& offset, float length) {
   constexpr float kInPlane = 0.15F;     // 9 deg
   constexpr float kSameNormal = 0.96F;  // 16 deg
-  const float length = offset.norm();
-  if (!(length >= step)) return kNoBin;
   const float along_from = from.dot(offset) / length;
   const float along_to = to.dot(offset) / length;
   const float between = from.dot(to);
   if (std::abs(along_from) < kInPlane && std::abs(along_to) < kInPlane && between > kSameNormal)
-    return kNoBin;
-  const auto lengths = static_cast<std::uint32_t>(length / step);
-  return ((lengths * kAngleBins + angle_bin(along_from)) * kAngleBins + angle_bin(along_to)) *
-             kAngleBins +
-         angle_bin(between);
+    return kNoAngles;
+  return static_cast<std::uint16_t>(
+      (angle_bin(along_from) * kAngleBins + angle_bin(along_to)) * kAngleBins + angle_bin(between));
+}
+
+/// The bin of a pair of these angle_bins, `length` apart [m]; lengths are told in steps [m].
+inline std::uint32_t pair_bin(float length, std::uint16_t angles, float step) {
+  if (!(length >= step) || angles == kNoAngles) return kNoBin;
+  return pair_bins(static_cast<std::uint32_t>(length / step)) + angles;
+}
+
+inline std::uint32_t pair_bin(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                              const Eigen::Vector3f& offset, float step) {
+  const float length = offset.norm();
+  return length >= step ? pair_bin(length, angle_bins(from, to, offset, length), step) : kNoBin;
 }
 
 }  // namespace posevote::pairs

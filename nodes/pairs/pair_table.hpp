@@ -49,6 +49,11 @@ class PairTable {
   template <class Visit>
   void for_each_turned(std::uint32_t bin, int turn, int most, const Visit& visit) const {
     const std::span<const PairEnd> ends = (*this)[bin];
+    if (ends.size() <= kFew) {  // to look at them all is quicker than to search
+      for (const PairEnd& end : ends)
+        if (static_cast<std::uint8_t>(end.turn - turn + most) <= 2 * most) visit(end);
+      return;
+    }
     for (const int around : {-256, 0, 256}) {
       const int low = turn - most + around, high = turn + most + around;
       if (high < 0 || low > 255) continue;
@@ -58,6 +63,8 @@ class PairTable {
   }
 
  private:
+  static constexpr std::size_t kFew = 32;
+
   PairTable(const Cloud& thin, float step, float reach, int);
 
   float step_ = 0, reach_ = 0;

@@ -2,6 +2,7 @@
 #include "nodes/pairs/pair_votes.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -28,35 +29,40 @@ PairScene::PairScene(const Cloud& thin, float cell, int)
   }
 }
 
-std::optional<Eigen::Vector3f> PairScene::color_near(const Eigen::Vector3f& place,
-                                                     float reach) const {
-  if (!has_colors_) return std::nullopt;
-  std::optional<Eigen::Vector3f> color;
-  float nearest = reach * reach;
-  grid_.for_each_position_within(place, reach, [&](std::size_t i, float squared) {
-    if (squared > nearest) return;
-    nearest = squared;
-    color = points_[i].lab;
+void PairVotes::go_to(const LocalFrame& at, const PairScene& scene, float reach) {
+  others_.clear();
+  labs_.clear();
+  color_from_ = std::numeric_limits<float>::infinity();
+  Eigen::Vector3f own_color = Eigen::Vector3f::Zero();
+  scene.for_each_within(at.point, reach, [&](const PairScene::Point& other) {
+    const Eigen::Vector3f offset = other.point - at.point;
+    const float length = offset.norm();
+    if (scene.has_colors() && length <= color_from_) {
+      color_from_ = length;
+      own_color = other.lab;
+    }
+    if (!(length > 0)) return;
+    const std::uint16_t angles = angle_bins(at.normal, other.normal, offset, length);
+    if (angles == kNoAngles) return;
+    others_.push_back({length, angles, at.turn_to(offset), 0});
+    if (scene.has_colors()) labs_.push_back(other.lab);
   });
-  return color;
+  for (std::size_t i = 0; i < labs_.size(); ++i) others_[i].color = color_step(own_color, labs_[i]);
 }
 
 // Bins are all over the memory, so they are fetched before they are needed: their starts first, then
 // the pairs that lie there.
 template <class Visit>
-void PairVotes::for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              const std::optional<Eigen::Vector3f>& own_color, const Visit& visit) {
+void PairVotes::for_each_pair(const PairTable& table, const Visit& visit) {
   for (const std::uint32_t bin : touched_) seen_[bin] = 0;
   touched_.clear();
   seen_.resize(std::max(seen_.size(), table.bins()));
   pairs_.clear();
-  scene.for_each_within(at.point, table.reach(), [&](const PairScene::Point& other) {
-    const Eigen::Vector3f offset = other.point - at.point;
-    const std::uint32_t bin = pair_bin(at.normal, other.normal, offset, table.step());
-    if (bin < table.bins())
-      pairs_.push_back({bin, at.turn_to(offset),
-                        own_color ? color_step(*own_color, other.lab) : std::uint8_t{0}});
-  });
+  for (const Other& other : others_) {
+    if (other.length > table.reach()) continue;
+    const std::uint32_t bin = pair_bin(other.length, other.angles, table.step());
+    if (bin < table.bins()) pairs_.push_back({bin, other.turn, other.color});
+  }
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (i + 2 * kAhead < pairs_.size()) {
       const std::uint32_t bin = pairs_[i + 2 * kAhead].bin;
@@ -118,36 +124,32 @@ std::vector<PairPeak> PairVotes::peaks_of_points(double ratio) const {
   return peaks;
 }
 
-std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const LocalFrame& at,
-                                       const PairScene& scene, const PeakOptions& options) {
+std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const PeakOptions& options) {
   const std::size_t points = table.points().size();
   std::vector<PairPeak> peaks;
   if (options.turn == Turn::kOpen) {
     counts_.assign(points * kTurns, 0);
-    const auto own_color =
-        table.has_colors() ? scene.color_near(at.point, 2 * table.step()) : std::nullopt;
+    const bool by_color = table.has_colors() && color_from_ <= 2 * table.step();
     const auto extra = static_cast<std::uint16_t>(options.like_color - 1);
-    for_each_pair(
-        table, at, scene, own_color, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
-          const auto count_of = [&](PairEnd end) -> std::uint16_t& {
-            const auto off = static_cast<std::uint8_t>(turn - end.turn);
-            return counts_[end.point * kTurns + off / (256 / kTurns)];
-          };
-          if (!own_color) {
-            for (const PairEnd end : table[bin]) ++count_of(end);
-            return;
-          }
-          const LikeSteps& like = like_steps(color);
-          for (const PairEnd end : table[bin])
-            count_of(end) = static_cast<std::uint16_t>(count_of(end) + 1 + extra * like[end.color]);
-        });
+    for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
+      const auto count_of = [&](PairEnd end) -> std::uint16_t& {
+        const auto off = static_cast<std::uint8_t>(turn - end.turn);
+        return counts_[end.point * kTurns + off / (256 / kTurns)];
+      };
+      if (!by_color) {
+        for (const PairEnd end : table[bin]) ++count_of(end);
+        return;
+      }
+      const LikeSteps& like = like_steps(color);
+      for (const PairEnd end : table[bin])
+        count_of(end) = static_cast<std::uint16_t>(count_of(end) + 1 + extra * like[end.color]);
+    });
     peaks = peaks_of_turns(points, options.least_ratio);
   } else {
     counts_.assign(points, 0);
-    for_each_pair(
-        table, at, scene, std::nullopt, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
-          table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
-        });
+    for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
+      table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
+    });
     peaks = peaks_of_points(options.least_ratio);
   }
   std::stable_sort(peaks.begin(), peaks.end(),

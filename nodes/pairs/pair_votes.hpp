@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
@@ -30,8 +29,7 @@ class PairScene {
   void for_each_within(const Eigen::Vector3f& center, float reach, const Visit& visit) const {
     grid_.for_each_position_within(center, reach, [&](std::size_t i, float) { visit(points_[i]); });
   }
-  /// Of the nearest point within `reach` [m].
-  std::optional<Eigen::Vector3f> color_near(const Eigen::Vector3f& place, float reach) const;
+  bool has_colors() const { return has_colors_; }
 
  private:
   PairScene(const Cloud& thin, float cell, int);
@@ -66,29 +64,40 @@ struct PeakOptions {
 /// point.
 class PairVotes {
  public:
-  /// The best, in descending order.
-  std::vector<PairPeak> peaks(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                              const PeakOptions& options);
+  /// Goes to a point, whose pairs with what is within `reach` [m] are those that any table of less
+  /// reach asks for.
+  void go_to(const LocalFrame& at, const PairScene& scene, float reach);
+  /// The best there, in descending order.
+  std::vector<PairPeak> peaks(const PairTable& table, const PeakOptions& options);
 
  private:
   static constexpr std::uint32_t kTurns = 32;
 
   /// Calls visit(bin, turn, color) for each kind of pair that the scan has about the point, the turn
-  /// about it at which it has it, and, where the point's own colour is given, the color_step.
+  /// about it at which it has it, and, where it knows the point's own colour, the color_step.
   template <class Visit>
-  void for_each_pair(const PairTable& table, const LocalFrame& at, const PairScene& scene,
-                     const std::optional<Eigen::Vector3f>& own_color, const Visit& visit);
+  void for_each_pair(const PairTable& table, const Visit& visit);
   std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio) const;
   std::vector<PairPeak> peaks_of_points(double ratio) const;
   PairPeak peak_of(std::uint16_t point) const;
 
+  /// Of the scan's points about the point: what of a pair is the same for all tables.
+  struct Other {
+    float length = 0;  ///< [m]
+    std::uint16_t angles = 0;
+    std::uint8_t turn = 0;
+    std::uint8_t color = 0;  ///< color_step, where the scene has colours
+  };
   struct Pair {
     std::uint32_t bin = 0;
     std::uint8_t turn = 0;
-    std::uint8_t color = 0;  ///< color_step, where both have colours
+    std::uint8_t color = 0;
   };
 
-  std::vector<Pair> pairs_;             ///< of the scan, about the point
+  std::vector<Other> others_;
+  std::vector<Eigen::Vector3f> labs_;   ///< of others, where the scene has colours
+  float color_from_ = 0;                ///< how far away the point's own colour was seen [m]
+  std::vector<Pair> pairs_;             ///< of the table, about the point
   std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins

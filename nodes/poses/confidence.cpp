@@ -16,7 +16,7 @@ constexpr double kUsualVotesPerFeature = 0.3;
 constexpr double kAllSunk = 0.5;
 
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
-constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 1, 8.3, -3.2, 0, -0.2, 0};
+constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0};
 
 /// Its support over that of the best proposal elsewhere.
 double lead_of(const Candidate& candidate) {
@@ -38,7 +38,7 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   clues[kOutline] = bounded_log(3 * shares.outline + 0.02, 0.02, 1.5);
   clues[kVotes] = bounded_log(backing.votes_per_feature.value_or(kUsualVotesPerFeature), 0.002, 3);
   clues[kLead] = bounded_log(backing.lead, 0.1, 10);
-  clues[kExactness] = backing.exactness;
+  clues[kExactness] = bounded_log(backing.exactness, 0.1, 1);
   // Of a large thing much is supported, wherever it is put.
   clues[kSupport] = bounded_log(static_cast<double>(fit.supported) * fit.stands_for, 30, 5000);
   // Of few points a surface that goes on may be noise, of many it is not: a bracket in the corner

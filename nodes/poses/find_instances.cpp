@@ -79,8 +79,7 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
         return found;
       const Eigen::Isometry3d& T_scene_model = instance.candidate.T_scene_model;
       scan.take_out(search->model(), T_scene_model, search->params().explained_distance);
-      if (instance.candidate.confidence >= search->params().min_confidence)
-        scan.learn_from(search->model(), instance.candidate);
+      scan.learn_from(search->model(), instance.candidate);
       search->choose();
     }
   return found;

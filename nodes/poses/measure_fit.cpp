@@ -8,6 +8,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/spread.hpp"
+#include "nodes/poses/patches.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -130,6 +131,26 @@ Fit count(const std::vector<Judged>& points) {
   return fit;
 }
 
+/// Of the diagonal: patches that lie off alike, of some twenty points in a close look.
+constexpr float kPatch = 0.1F;
+
+double systematic_residual(const std::vector<Judged>& points, const Cloud& model,
+                           Eigen::Index stride, std::size_t supported) {
+  Eigen::Matrix3Xf places(3, static_cast<Eigen::Index>(supported));
+  Eigen::VectorXd residuals(places.cols());
+  Eigen::Index known = 0;
+  Eigen::AlignedBox3f box;  // of the model
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3f place =
+        model.points.row(static_cast<Eigen::Index>(i) * stride).transpose();
+    box.extend(place);
+    if (points[i].verdict != Verdict::kSupported) continue;
+    places.col(known) = place;
+    residuals[known++] = points[i].residual;
+  }
+  return shared_deviation(places, residuals, kPatch * box.diagonal().norm());
+}
+
 void add(const std::vector<Beside>& points, Fit& fit) {
   for (const Beside& point : points) {
     fit.ends += point.ends;
@@ -157,6 +178,7 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
                       [&](std::size_t i) { points[i] = judge(posed(i), sensed); });
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(stride);
+  if (sampling.closely) fit.systematic = systematic_residual(points, model, stride, fit.supported);
   const float height = static_cast<float>(terms.same_height * fit.rmse) + kSomeHeight * tolerance;
   const Stander stander{outline, T.inverse()};
   std::vector<Beside> beside(points.size());
@@ -168,7 +190,7 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
       count_end(look_at_end({T * end, normal}, sensed, stander, height), beside[i].ends,
                 beside[i].overhang);
     });
-    if (!sampling.gaps) return;
+    if (!sampling.closely) return;
     geometry::for_each_gap(model, outline, row, [&](const Eigen::Vector3f& gap, bool is_hole) {
       const End end = look_at_end({T * gap, normal}, sensed, stander, height);
       count_end(end, beside[i].gaps, beside[i].filled);

@@ -92,18 +92,22 @@ void ObjectSearch::choose_best() {
 }
 
 /// Finalists that ICP carries onto instances that are found already leave the pool, and the next
-/// take their places.
+/// take their places. So they do, once, where those that were refined convince nobody: ranks of
+/// before ICP may err.
 std::optional<Candidate> ObjectSearch::best_finalist() {
-  while (!pool_.empty()) {
+  std::optional<Candidate> doubtful;
+  while (!pool_.empty() && (!doubtful || may_win(sought_, pool_[0]))) {
     const Candidates::iterator end = refine_best(sought_, pool_);
     if (end == pool_.begin()) break;
     std::ranges::stable_sort(pool_.begin(), end, std::greater(), &Candidate::confidence);
     if (sought_.watch) show("refine", {pool_.begin(), end});
-    if (auto best = best_of(pool_.begin(), end))
-      return is_convincing(sought_, *best) ? best_of_place(*best) : *best;
+    const std::optional<Candidate> best = best_of(pool_.begin(), end);
+    if (best && is_convincing(sought_, *best)) return best_of_place(*best);
+    if (doubtful) break;
+    doubtful = best;
     pool_.erase(pool_.begin(), end);
   }
-  return std::nullopt;
+  return doubtful;
 }
 
 /// Of refined poses, the first that reaches the threshold, itself or the twin that
@@ -135,7 +139,7 @@ Candidate ObjectSearch::best_of_place(const Candidate& best) const {
   const auto most = static_cast<std::size_t>(sought_.terms.schedule.finalists);
   Candidates others;
   for (const Candidate& one : pool_)
-    if (others.size() < most && !one.is_refined &&
+    if (others.size() < most && !one.is_refined && may_win(sought_, one) &&
         (center(one) - center(best)).norm() < static_cast<double>(sought_.params.nms_radius))
       others.push_back(one);
   graph::parallel_for(others.size(), 1, [&](std::size_t i) { refine(sought_, others[i]); });

@@ -56,11 +56,11 @@ bool ScanState::changed_since(int since, const Eigen::AlignedBox3d& box, double 
 }
 
 void ScanState::learn_from(const Model& model, const Candidate& instance) {
+  if (instance.confidence < kBelieved) return;
   usual_residual.add(instance.fit, range_of(model, instance.T_scene_model));
   usual_tint.add(instance.colors);
-  if (instance.confidence >= kBelieved)
-    solids_.emplace_back(model.cloud, instance.T_scene_model,
-                         kSkin * std::max(resolution, model.resolution));
+  solids_.emplace_back(model.cloud, instance.T_scene_model,
+                       kSkin * std::max(resolution, model.resolution));
 }
 
 double ScanState::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model) const {

@@ -2,8 +2,11 @@
 #include "nodes/poses/schedule.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 
 #include "graph/parallel.hpp"
+#include "nodes/poses/confidence.hpp"
 #include "nodes/poses/pool.hpp"
 #include "nodes/poses/refinement.hpp"
 #include "nodes/poses/score.hpp"
@@ -56,15 +59,25 @@ void bring_finalists_forward(const Sought& sought, Candidates& pool) {
   std::erase_if(pool, [](const Candidate& candidate) { return candidate.quality == 0; });
 }
 
+bool may_win(const Sought& sought, const Candidate& candidate) {
+  return first_log_odds(candidate, sought.terms) >= sought.terms.schedule.hopeless_odds;
+}
+
 Candidates::iterator refine_best(const Sought& sought, Candidates& sorted) {
   const ScheduleTerms& terms = sought.terms.schedule;
-  const std::size_t most = std::min(static_cast<std::size_t>(terms.finalists), sorted.size());
-  std::size_t count = 0;
-  while (count < most && sorted[count].rank >= terms.hopeless * sorted[0].rank &&
-         sorted[count].quality >= terms.hopeless * sought.params.min_score)
-    ++count;
-  graph::parallel_for(count, 1, [&](std::size_t i) { refine(sought, sorted[i]); });
-  return sorted.begin() + static_cast<std::ptrdiff_t>(count);
+  const auto is_hopeless = [&](const Candidate& candidate) {
+    return candidate.rank < terms.hopeless * sorted[0].rank ||
+           candidate.quality < terms.hopeless * sought.params.min_score;
+  };
+  auto end = std::find_if(sorted.begin(), sorted.end(), is_hopeless);
+  if (end == sorted.begin()) return end;
+  end = std::stable_partition(std::next(sorted.begin()), end, [&](const Candidate& candidate) {
+    return may_win(sought, candidate);
+  });
+  const auto count = std::min<std::ptrdiff_t>(end - sorted.begin(), terms.finalists);
+  graph::parallel_for(static_cast<std::size_t>(count), 1,
+                      [&](std::size_t i) { refine(sought, sorted[i]); });
+  return sorted.begin() + count;
 }
 
 }  // namespace posevote::poses

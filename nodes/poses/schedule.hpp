@@ -41,7 +41,11 @@ void bring_closer(const Sought& sought, Candidates& pool);
 /// Ranks of before something was taken out of the scan, and of sketches, are taken as upper bounds.
 void bring_finalists_forward(const Sought& sought, Candidates& pool);
 
-/// Refines the first of a sorted list, as many as may turn out the best. Returns their end.
+/// Whether ICP may make a detection of what was looked at.
+bool may_win(const Sought& sought, const Candidate& candidate);
+
+/// Refines the first of a sorted list, and of those behind as many as may turn out the best, which
+/// come forward. Returns their end.
 Candidates::iterator refine_best(const Sought& sought, Candidates& sorted);
 
 }  // namespace posevote::poses

@@ -32,7 +32,8 @@ std::size_t count_explained(const Sought& sought, const Eigen::Isometry3d& T_sce
 Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look) {
   const double tolerance = look.reach * static_cast<double>(sought.params.tolerance);
   return sought.memory->fits.get(
-      sought.scan, {T_scene_model, 2 * look.sampling.points + look.sampling.gaps, look.reach}, [&] {
+      sought.scan, {T_scene_model, 2 * look.sampling.points + look.sampling.closely, look.reach},
+      [&] {
         return answer_at(sought, T_scene_model, tolerance,
                          measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
                                      sought.scan.view, T_scene_model, static_cast<float>(tolerance),
@@ -42,7 +43,8 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
 
 void grade_at_a_glance(const Sought& sought, Candidate& candidate) {
   candidate.quality = fit_quality(candidate.fit, sought.terms.fit);
-  if (candidate.is_refined) candidate.quality *= exactness(sought, candidate);
+  if (candidate.is_refined)
+    candidate.quality *= std::max(sought.terms.score.least_exactness, exactness(sought, candidate));
   candidate.rank = candidate.quality * std::pow(candidate.proposed.support / sought.most_support,
                                                 sought.terms.score.trust_in_support);
 }
@@ -66,11 +68,10 @@ bool is_convincing(const Sought& sought, const Candidate& candidate) {
 double exactness(const Sought& sought, const Candidate& candidate) {
   const InstanceParams& params = sought.params;
   if (!params.refine || params.max_residual == 0) return 1;  // rough poses leave more than noise
-  const ScoreTerms& terms = sought.terms.score;
   return sought.scan.usual_residual.exactness(
       candidate.fit, sought.scan.range_of(sought.model, candidate.T_scene_model),
-      {params.max_residual, terms.sampled_residual * static_cast<double>(params.tolerance),
-       terms.least_exactness});
+      {params.max_residual,
+       sought.terms.score.sampled_residual * static_cast<double>(params.tolerance)});
 }
 
 /// The fit tells how much of the surface is there, the consensus how many of the features on it had

@@ -32,7 +32,7 @@ void judge(const Sought& sought, Candidate& candidate, const Closeness& look);
 /// Whether a refined pose may be an instance: it reaches min_score and is not more than doubtful.
 bool is_convincing(const Sought& sought, const Candidate& candidate);
 
-/// In [least_exactness, 1], by the instances of all objects that were found before.
+/// In (0, 1], by the instances of all objects that were found before.
 double exactness(const Sought& sought, const Candidate& candidate);
 
 /// The support per feature of the scan that the pose explains, as if each had cast usual_votes.

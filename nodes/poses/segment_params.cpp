@@ -138,10 +138,11 @@ graph::Registration<SegmentParams> with_segment_params(graph::Registration<Segme
              "A model point with a scan point this near is supported.", graph::in_range(0.1, 100));
   node.param("explained_distance", &P::explained_distance, "x resolution",
              "Scan points this near to a detection are taken out.", graph::in_range(0.1, 100));
-  node.param("max_residual", &P::max_residual, "x usual",
-             "An instance that leaves more than this many times the residual of the scan's others "
-             "loses score by the square: a look-alike. 0: none does.",
-             graph::in_range(0, 1000));
+  node.param(
+      "max_residual", &P::max_residual, "x usual",
+      "An instance of which whole patches lie off by more than this many times what they do of "
+      "the scan's others is less exact, and loses score: a look-alike. 0: none is.",
+      graph::in_range(0, 1000));
   add_terms(node);
   return node;
 }

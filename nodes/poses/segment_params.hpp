@@ -22,7 +22,7 @@ struct SegmentParams {
   int icp_iterations = 40;
   double inlier_distance = 2;
   double explained_distance = 3;
-  double max_residual = 1.5;
+  double max_residual = 1;
   Terms terms;
 };
 

@@ -42,6 +42,8 @@ void add_schedule(Node& node) {
        "Poses of lower rank than this share of the best, or of min_score, are not refined: ICP "
        "seldom more than doubles a quality. 0 refines all finalists, at their cost.",
        in_range(0, 1));
+  term("hopeless_odds", &G::hopeless_odds, "log odds",
+       "Nor, but for the first, those that clues put so far below the usual.", in_range(-1e6, 0));
 }
 
 void add_pool(Node& node) {
@@ -94,7 +96,7 @@ void add_score(Node& node) {
   using G = ScoreTerms;
   const Register<G> term{node, &Terms::score};
   term("sampled_residual", &G::sampled_residual, "x inlier_distance",
-       "Residual that the points' own distances may leave where there is no noise.", at_least(0));
+       "Of patches, which the points' own distances leave where there is no noise.", at_least(0));
   term("least_exactness", &G::least_exactness, "",
        "No residual costs more of the quality: a model that is worse than the others leaves more, "
        "too.",
@@ -265,8 +267,7 @@ void add_view(Node& node) {
        in_range(0.01, 1));
   term("view_footprint", &G::footprint, "x resolution",
        "Half-width that a point covers in the range image: neighbours overlap. "
-       "Smaller leaves holes, "
-       "larger widens silhouettes.",
+       "Smaller leaves holes, larger widens silhouettes.",
        at_least(0));
   term("view_most_cells", &G::most_cells, "cells", "Of the range image, per side. Bounds memory.",
        in_range(1, 20000));

@@ -21,6 +21,7 @@ struct ScheduleTerms {
   int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
   double glance_reach = 2;
   double hopeless = 0.4;
+  double hopeless_odds = -11;
 };
 
 /// Which poses are the same (pool.hpp).
@@ -44,7 +45,7 @@ struct FitTerms {
 
 /// What else counts in its grades (score.hpp).
 struct ScoreTerms {
-  double sampled_residual = 0.15;
+  double sampled_residual = 0.05;
   double least_exactness = 0.6;
   double trust_in_support = 0.1;
   double trust_in_clues = 0.1;
@@ -53,12 +54,12 @@ struct ScoreTerms {
 };
 
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
-/// fitted (posevote calibrate) on the 184 images of configs/calibration_scenes.yaml.
+/// fitted (posevote calibrate) on the 368 images of configs/calibration_scenes.yaml and calibration_more_scenes.yaml.
 struct ConfidenceTerms {
-  double offset = -20.15;
+  double offset = -10.71;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
-  Clues weights{2.023, 0.7205, 1.466, -5.553,  0.5091, 0.6813,
-                10.86, 2.034,  1.032, -0.5458, 0.5833, -11.79};
+  Clues weights{1.964, 0.6738, 1.824,  -6.274,  0.5448, 0.458,
+                3.615, 2.177,  0.6542, -0.4149, 0.3233, -13.99};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -8,7 +8,7 @@ namespace posevote::poses {
 
 void UsualResidual::add(const Fit& fit, double range) {
   const auto weight = static_cast<double>(fit.supported);
-  squared_ += weight * fit.rmse * fit.rmse;
+  squared_ += weight * fit.systematic * fit.systematic;
   range_ += weight * range;
   weight_ += weight;
 }
@@ -18,10 +18,11 @@ void UsualResidual::add(const Fit& fit, double range) {
 double UsualResidual::exactness(const Fit& fit, double range, const Tolerated& tolerated) const {
   if (!(weight_ > 0)) return 1;
   const double farther = range_ > 0 ? std::max(1.0, range * weight_ / range_) : 1;
-  const double usual = std::sqrt(squared_ / weight_);
-  const double most = std::max(tolerated.residual, tolerated.times * usual * farther * farther);
-  if (fit.rmse <= most) return 1;
-  return std::max(tolerated.least_exactness, most * most / (fit.rmse * fit.rmse));
+  const double times = tolerated.times * farther * farther;
+  const double any_case = tolerated.residual * tolerated.residual;
+  const double most = times * times * squared_ / weight_ + any_case;
+  const double left = fit.systematic * fit.systematic + any_case;
+  return left > most ? std::sqrt(most / left) : 1;
 }
 
 }  // namespace posevote::poses

@@ -8,6 +8,18 @@
 using namespace posevote;
 using namespace posevote::test;
 
+namespace {
+
+std::vector<pairs::PairPeak> peaks_at(const pairs::LocalFrame& at, const pairs::PairTable& table,
+                                      const pairs::PairScene& scene,
+                                      const pairs::PeakOptions& options) {
+  pairs::PairVotes votes;
+  votes.go_to(at, scene, table.reach());
+  return votes.peaks(table, options);
+}
+
+}  // namespace
+
 TEST_CASE("a turn is told from u to v", "[pairs]") {
   const pairs::LocalFrame frame({1, 2, 3}, Eigen::Vector3f(1, 2, -1).normalized());
   CHECK((frame.u.cross(frame.v) - frame.normal).norm() < 1e-6F);
@@ -25,10 +37,9 @@ TEST_CASE("the best of a point's poses are told in descending order", "[pairs]")
   const float step = 0.1F * model->diagonal;
   const pairs::PairTable table(model->cloud, step, model->diagonal);
   const pairs::PairScene scene(model->cloud, step);
-  pairs::PairVotes votes;
   int right = 0;
   for (std::size_t i = 0; i < table.points().size(); ++i) {
-    const auto peaks = votes.peaks(table, table.points()[i], scene, {4, 0.5});
+    const auto peaks = peaks_at(table.points()[i], table, scene, {4, 0.5});
     REQUIRE(!peaks.empty());
     CHECK(peaks.size() <= 4);
     for (std::size_t k = 1; k < peaks.size(); ++k) {
@@ -53,18 +64,18 @@ TEST_CASE("what was counted before does not count again", "[pairs]") {
     });
   };
   pairs::PairVotes used;
-  for (const std::size_t i : {5U, 9U, 13U})
-    for (const pairs::PairTable* table : {&fine, &coarse, &fine}) {
-      const auto again = used.peaks(*table, fine.points()[i], scene, {9, 0});
-      CHECK(same(again, pairs::PairVotes().peaks(*table, fine.points()[i], scene, {9, 0})));
-    }
+  for (const std::size_t i : {5U, 9U, 13U}) {
+    used.go_to(fine.points()[i], scene, 1.5F * fine.reach());  // farther than either asks for
+    for (const pairs::PairTable* table : {&fine, &coarse, &fine})
+      CHECK(same(used.peaks(*table, {9, 0}), peaks_at(fine.points()[i], *table, scene, {9, 0})));
+  }
 }
 
 TEST_CASE("a point with nothing around it has no pose", "[pairs]") {
   const auto model = bumpy_model(1);
   const pairs::PairTable table(model->cloud, 0.1F * model->diagonal, model->diagonal);
   const pairs::PairScene scene(model->cloud, 0.1F * model->diagonal);
-  CHECK(pairs::PairVotes().peaks(table, {{9, 9, 9}, {0, 0, 1}}, scene, {3, 0}).empty());
+  CHECK(peaks_at({{9, 9, 9}, {0, 0, 1}}, table, scene, {3, 0}).empty());
 }
 
 TEST_CASE("pairs of like colours count several times, and others still count", "[pairs]") {
@@ -86,8 +97,7 @@ TEST_CASE("pairs of like colours count several times, and others still count", "
   CHECK(!plain.has_colors());
   const auto best = [&](const pairs::PairTable& of, const Cloud& scan, std::size_t i) {
     const pairs::PairScene scene(scan, step);
-    const auto peaks =
-        pairs::PairVotes().peaks(of, of.points()[i], scene, {1, 0, pairs::Turn::kOpen, 4});
+    const auto peaks = peaks_at(of.points()[i], of, scene, {1, 0, pairs::Turn::kOpen, 4});
     return peaks.empty() ? 0U : peaks[0].pairs;
   };
   for (std::size_t i = 0; i < table.points().size(); i += 7) {

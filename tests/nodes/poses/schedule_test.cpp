@@ -97,3 +97,22 @@ TEST_CASE("only what may turn out the best is refined", "[poses]") {
   CHECK(refined({0.9, 0.8, 0.2, 0.2}) == 4);
   CHECK(refined({}) == 0);
 }
+
+TEST_CASE("what clues put far below the usual is not refined, but for the first", "[poses]") {
+  SoughtBody body({kBody});
+  poses::Candidate good = body.candidate(beside(0));
+  poses::judge(body.sought(), good, {});
+  poses::Candidate bad = good;
+  bad.fit.apparent = {1, 99, 0};  // seen through
+  REQUIRE(poses::may_win(body.sought(), good));
+  REQUIRE(!poses::may_win(body.sought(), bad));
+  bad.quality = bad.rank = 0.99 * good.rank;
+  poses::Candidates pool{good, bad, good, bad, good};
+  CHECK(poses::refine_best(body.sought(), pool) - pool.begin() == 3);  // the good ones came forward
+  for (std::size_t i = 0; i < pool.size(); ++i) CHECK(pool[i].is_refined == (i < 3));
+  poses::Candidates hopeless{bad, bad};
+  CHECK(poses::refine_best(body.sought(), hopeless) - hopeless.begin() == 1);
+  body.params.terms.schedule.hopeless_odds = -1e6;
+  poses::Candidates all{bad, bad};
+  CHECK(poses::refine_best(body.sought(), all) - all.begin() == 2);
+}

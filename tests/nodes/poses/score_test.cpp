@@ -119,31 +119,38 @@ TEST_CASE("a pose convinces by score and confidence; a rival's has no consensus"
 TEST_CASE("others are judged by the residual and the tint of an instance", "[poses]") {
   SoughtBody body({kBody});
   poses::Candidate instance = body.candidate(beside(0));
-  instance.fit.supported = 100, instance.fit.rmse = 1e-3;
+  instance.fit.supported = 100, instance.fit.systematic = 1e-3;
   instance.colors.emplace();
   instance.colors->has_tint = true;
   instance.colors->tint = {8, -4};
   body.scan.learn_from(body.model, instance);
-  CHECK(body.scan.usual_tint.tint().isApprox(Eigen::Vector2d(4, -2)));
   poses::Fit off = instance.fit;
-  off.rmse = 3e-3;
-  CHECK(body.scan.usual_residual.exactness(off, 0.8, {1.5, 0}) == 0.6);
+  off.systematic = 3e-3;
+  const auto exactness = [&] { return body.scan.usual_residual.exactness(off, 0.8, {1, 0}); };
+  CHECK(exactness() == 1);  // nobody believes it
+  instance.confidence = 0.6;
+  body.scan.learn_from(body.model, instance);
+  CHECK(exactness() == Approx(1 / 3.0));
+  CHECK(body.scan.usual_tint.tint().isApprox(Eigen::Vector2d(4, -2)));
 }
 
 TEST_CASE("what leaves more than the instances before is less exact, once refined", "[poses]") {
   SoughtBody body({kBody});
   poses::Fit exact;
-  exact.supported = 100, exact.rmse = 1e-6;
+  exact.supported = 100;
   body.scan.usual_residual.add(exact, 0.8);
   poses::Candidate off = body.candidate(beside(0.004));
-  poses::judge(body.sought(), off, {});
+  poses::judge(body.sought(), off, poses::kAllPoints);
   const double rough = off.quality;
   off.is_refined = true;
-  REQUIRE(off.fit.rmse > 1.5 * 0.15 * 2 * kResolution);
+  REQUIRE(off.fit.systematic > 0.05 * 2 * kResolution);
   poses::grade(body.sought(), off);
-  CHECK(off.quality == Approx(0.6 * rough));
-  body.params.terms.score.least_exactness = 0.8;
-  CHECK(poses::exactness(body.sought(), off) == 0.8);
+  const double exactness = poses::exactness(body.sought(), off);
+  CHECK(exactness < 0.8);
+  CHECK(off.quality == Approx(std::max(0.6, exactness) * rough));
+  body.params.terms.score.least_exactness = 0.9;
+  poses::grade(body.sought(), off);
+  CHECK(off.quality == Approx(0.9 * rough));
   body.params.refine = false;
   CHECK(poses::exactness(body.sought(), off) == 1);
 }
