@@ -267,7 +267,7 @@ TEST_CASE("only settings that act on the stage are tried", "[explain]") {
   one.best->left.confidence = 0.3;
   CHECK(settings(Cause::kRefused, "votes") ==
         std::vector<std::string>{"segment_objects.min_confidence=0.30"});
-  CHECK(settings(Cause::kRefused, "exactness").front() == "segment_objects.max_residual=3");
+  CHECK(settings(Cause::kRefused, "exactness").front() == "segment_objects.max_residual=2");
   one.best->left.confidence = 0.01;  // nothing makes that one right
   CHECK(settings(Cause::kRefused, "votes").empty());
 }
