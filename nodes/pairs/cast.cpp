@@ -21,6 +21,58 @@ void add_vote(VoteSet& votes, const PairTable& table, const Reference& reference
                    Eigen::Quaternionf(rotation), reference.row);
 }
 
+/// Objects whose pairs start from the same references in the same scene: what is around those is
+/// looked up once.
+struct Group {
+  std::vector<std::size_t> objects;
+  float reach = 0;  ///< of the farthest [m]
+};
+
+std::vector<Group> group_by_scene(const std::vector<Source>& sources) {
+  std::vector<Group> groups;
+  for (std::size_t object = 0; object < sources.size(); ++object) {
+    const Source& source = sources[object];
+    if (!source.table) continue;
+    auto at = std::ranges::find_if(groups, [&](const Group& one) {
+      const Source& first = sources[one.objects.front()];
+      return first.scene == source.scene && first.references == source.references;
+    });
+    if (at == groups.end()) at = groups.emplace(at);
+    at->objects.push_back(object);
+    at->reach = std::max(at->reach, source.table->reach());
+  }
+  return groups;
+}
+
+/// Of each object and each of its references.
+using Peaks = std::vector<std::vector<std::vector<PairPeak>>>;
+
+Peaks find_peaks(const std::vector<Source>& sources, const PeakOptions& options) {
+  Peaks peaks(sources.size());
+  struct Start {
+    const Group* group;
+    std::size_t reference;
+  };
+  std::vector<Start> starts;
+  const std::vector<Group> groups = group_by_scene(sources);
+  for (const Group& one : groups) {
+    const std::size_t references = sources[one.objects.front()].references->size();
+    for (const std::size_t object : one.objects) peaks[object].resize(references);
+    for (std::size_t i = 0; i < references; ++i) starts.push_back({&one, i});
+  }
+  graph::parallel_ranges(starts.size(), 8, [&](std::size_t begin, std::size_t end) {
+    PairVotes counter;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [group, reference] = starts[i];
+      const Source& first = sources[group->objects.front()];
+      counter.go_to((*first.references)[reference].frame, *first.scene, group->reach);
+      for (const std::size_t object : group->objects)
+        peaks[object][reference] = counter.peaks(*sources[object].table, options);
+    }
+  });
+  return peaks;
+}
+
 }  // namespace
 
 std::vector<const PairTable*> tables_of(const PerObject<VoteSet>& votes,
@@ -42,62 +94,6 @@ SharedSteps share_steps(const std::vector<const PairTable*>& tables) {
   }
   return steps;
 }
-
-namespace {
-
-/// Objects whose pairs start from the same references in the same scene: what is around those is
-/// looked up once.
-struct Group {
-  std::vector<std::size_t> objects;
-  float reach = 0;  ///< of the farthest [m]
-};
-
-std::vector<Group> group(const std::vector<Source>& sources) {
-  std::vector<Group> groups;
-  for (std::size_t object = 0; object < sources.size(); ++object) {
-    const Source& source = sources[object];
-    if (!source.table) continue;
-    auto at = std::ranges::find_if(groups, [&](const Group& one) {
-      const Source& first = sources[one.objects.front()];
-      return first.scene == source.scene && first.references == source.references;
-    });
-    if (at == groups.end()) at = groups.insert(at, Group{});
-    at->objects.push_back(object);
-    at->reach = std::max(at->reach, source.table->reach());
-  }
-  return groups;
-}
-
-/// Of each object and each of its references.
-using Peaks = std::vector<std::vector<std::vector<PairPeak>>>;
-
-Peaks find_peaks(const std::vector<Source>& sources, const PeakOptions& options) {
-  Peaks peaks(sources.size());
-  struct Start {
-    const Group* group;
-    std::size_t reference;
-  };
-  std::vector<Start> starts;
-  const std::vector<Group> groups = group(sources);
-  for (const Group& one : groups) {
-    const std::size_t references = sources[one.objects.front()].references->size();
-    for (const std::size_t object : one.objects) peaks[object].resize(references);
-    for (std::size_t i = 0; i < references; ++i) starts.push_back({&one, i});
-  }
-  graph::parallel_ranges(starts.size(), 8, [&](std::size_t begin, std::size_t end) {
-    PairVotes counter;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [group, reference] = starts[i];
-      const Source& first = sources[group->objects.front()];
-      counter.go_to((*first.references)[reference].frame, *first.scene, group->reach);
-      for (const std::size_t object : group->objects)
-        peaks[object][reference] = counter.peaks(*sources[object].table, options);
-    }
-  });
-  return peaks;
-}
-
-}  // namespace
 
 PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Source>& sources,
                         const PeakOptions& options) {

@@ -64,6 +64,7 @@ inline std::uint32_t pair_bin(float length, std::uint16_t angles, float step) {
   return pair_bins(static_cast<std::uint32_t>(length / step)) + angles;
 }
 
+/// The same of the two points.
 inline std::uint32_t pair_bin(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
                               const Eigen::Vector3f& offset, float step) {
   const float length = offset.norm();

@@ -54,7 +54,7 @@ struct ScoreTerms {
 };
 
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
-/// fitted (posevote calibrate) on the 368 images of configs/calibration_scenes.yaml and calibration_more_scenes.yaml.
+/// fitted (posevote calibrate) on 368 images: configs/calibration{,_more}_scenes.yaml.
 struct ConfidenceTerms {
   double offset = -10.71;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
