@@ -9,6 +9,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/density/rotation_cells.hpp"
 #include "nodes/geometry/radix_sort.hpp"
+#include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::density {
 namespace {
@@ -147,12 +148,14 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   const std::size_t count = votes.tx.size();
   SortedVotes sorted;
   sorted.bandwidth = bandwidth;
-  sorted.numbers.reserve(count);
-  for (std::uint32_t v = 0; v < count; ++v)
-    if (is_usable(vote_point(votes, v), bandwidth)) sorted.numbers.push_back(v);
+  sorted.numbers = geometry::rows_that(
+      count, [&](std::uint32_t v) { return is_usable(vote_point(votes, v), bandwidth); });
   std::vector<RotationCode> codes(count);
-  encode_rotations({votes.qw.data(), votes.qx.data(), votes.qy.data(), votes.qz.data()}, count,
-                   codes.data());
+  graph::parallel_ranges(count, 16384, [&](std::size_t begin, std::size_t end) {
+    encode_rotations({votes.qw.data() + begin, votes.qx.data() + begin, votes.qy.data() + begin,
+                      votes.qz.data() + begin},
+                     end - begin, codes.data() + begin);
+  });
   sort_by_cell(votes, codes, sorted);
   take({votes.tx.data(), votes.ty.data(), votes.tz.data(), votes.qw.data(), votes.qx.data(),
         votes.qy.data(), votes.qz.data()},
@@ -161,14 +164,14 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
 }
 
 SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep) {
-  std::vector<std::uint32_t> kept;
   SortedVotes selected;
   selected.bandwidth = all.bandwidth;
-  for (std::size_t c = 0; c < all.cells.size(); ++c) {
-    const std::size_t first = kept.size();
-    for (std::uint32_t i = all.cell_begin[c]; i < all.cell_begin[c + 1]; ++i)
-      if (keep[all.numbers[i]]) kept.push_back(i);
-    if (kept.size() > first) open_cell(selected, all.cells[c], first);
+  const std::vector<std::uint32_t> kept = geometry::rows_that(
+      all.numbers.size(), [&](std::uint32_t i) { return keep[all.numbers[i]] != 0; });
+  for (std::size_t c = 0, first = 0; c < all.cells.size(); ++c) {
+    const std::size_t begin = first;
+    while (first < kept.size() && kept[first] < all.cell_begin[c + 1]) ++first;
+    if (first > begin) open_cell(selected, all.cells[c], begin);
   }
   selected.cell_begin.push_back(static_cast<std::uint32_t>(kept.size()));
   take(columns_of(all.votes.columns()), kept, selected.votes);

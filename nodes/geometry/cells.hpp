@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
+#include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::geometry {
 
 inline std::vector<std::uint32_t> finite_rows(const PointMatrix& points) {
-  std::vector<std::uint32_t> rows;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (points.row(i).allFinite()) rows.push_back(static_cast<std::uint32_t>(i));
-  return rows;
+  return rows_that(static_cast<std::size_t>(points.rows()),
+                   [&](std::uint32_t i) { return points.row(i).allFinite(); });
 }
 
 /// Where to look for a key first in a table of mask + 1 slots, a power of two.

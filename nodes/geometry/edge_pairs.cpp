@@ -31,11 +31,9 @@ class WholeSurface {
   /// Whether it is near a place, to somebody who comes along a face with that normal.
   bool goes_on(const OrientedPoint& at, float near) const {
     const auto agree = static_cast<float>(SurfaceTerms{}.least_normal_cosine);
-    bool found = false;
-    grid_.for_each_within(at.point, near, [&](std::uint32_t i, float) {
-      found = found || normals_.row(static_cast<Eigen::Index>(i)).dot(at.normal) >= agree;
+    return grid_.any_within(at.point, near, [&](std::uint32_t i, float) {
+      return normals_.row(static_cast<Eigen::Index>(i)).dot(at.normal) >= agree;
     });
-    return found;
   }
 
  private:
@@ -68,16 +66,21 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, 
   const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
   const WholeSurface surface(model, resolution);
   std::vector<FaceEnd> all;
-  for (std::size_t k = 0; k < ahead.size(); k += stride) {
-    FaceEnd end = ahead[k];
-    const OrientedPoint from{end.place, model.normals.row(end.row).transpose()};
-    const auto length =
-        length_of(from, end.direction, kStep * resolution, kRim * resolution,
+  for (std::size_t k = 0; k < ahead.size(); k += stride) all.push_back(ahead[k]);
+  std::vector<std::optional<float>> lengths(all.size());
+  graph::parallel_for(all.size(), 64, [&](std::size_t k) {
+    const OrientedPoint from{all[k].place, model.normals.row(all[k].row).transpose()};
+    lengths[k] =
+        length_of(from, all[k].direction, kStep * resolution, kRim * resolution,
                   [&](const OrientedPoint& at) { return surface.goes_on(at, resolution); });
-    if (!length) continue;
-    end.place += *length * end.direction;
-    all.push_back(end);
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    if (!lengths[k]) continue;
+    all[kept] = all[k];
+    all[kept++].place += *lengths[k] * all[k].direction;
   }
+  all.resize(kept);
   for (std::size_t k = 0; k < all.size(); k += all.size() / wanted + 1) ends.push_back(all[k]);
   return ends;
 }

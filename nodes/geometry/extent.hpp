@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/parallel.hpp"
 #include "nodes/data/cloud.hpp"
 
 namespace posevote::geometry {
@@ -38,9 +39,11 @@ inline double robust_extent(const PointMatrix& points, Eigen::Index axis, double
 
 /// The same of the bounding box's diagonal. Of at least one point.
 inline double robust_diagonal(const PointMatrix& points, double outliers) {
-  const Eigen::Vector3d extent(robust_extent(points, 0, outliers),
-                               robust_extent(points, 1, outliers),
-                               robust_extent(points, 2, outliers));
+  Eigen::Vector3d extent;
+  graph::parallel_for(3, 1, [&](std::size_t axis) {
+    const auto column = static_cast<Eigen::Index>(axis);
+    extent[column] = robust_extent(points, column, outliers);
+  });
   return extent.norm();
 }
 

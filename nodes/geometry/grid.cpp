@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/radix_sort.hpp"
 
@@ -38,11 +39,11 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
       {1e-9F, static_cast<float>(extent / 1e9), std::min(cell, static_cast<float>(extent))});
   last_row_ = std::floor(extent / cell_) + 1;
 
-  std::vector<Entry> entries;
-  entries.reserve(finite.size());
-  for (const std::uint32_t i : finite)
-    entries.push_back(
-        {key_of(row(points(i, 1), low.y()), row(points(i, 2), low.z())), points(i, 0), i});
+  std::vector<Entry> entries(finite.size());
+  graph::parallel_for(finite.size(), 8192, [&](std::size_t k) {
+    const std::uint32_t i = finite[k];
+    entries[k] = {key_of(row(points(i, 1), low.y()), row(points(i, 2), low.z())), points(i, 0), i};
+  });
   radix_sort(entries, [](const Entry& one) { return ordered_bits(one.x); });
   radix_sort(entries, [](const Entry& one) { return one.key; });
 
@@ -50,24 +51,22 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
   for (std::size_t i = 0; i < entries.size(); ++i)
     rods += i == 0 || entries[i].key != entries[i - 1].key ? 1 : 0;
   slots_.resize(std::bit_ceil(2 * rods));
-  for (auto* column : {&x_, &y_, &z_}) column->reserve(entries.size() + kGridPadding);
-  index_.reserve(entries.size());
+  for (auto* column : {&x_, &y_, &z_}) column->assign(entries.size() + kGridPadding, 0);
+  index_.resize(entries.size());
+  graph::parallel_for(entries.size(), 8192, [&](std::size_t at) {
+    const std::uint32_t i = entries[at].index;
+    x_[at] = points(i, 0), y_[at] = points(i, 1), z_[at] = points(i, 2);
+    index_[at] = i;
+  });
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin;
-    for (; end < entries.size() && entries[end].key == entries[begin].key; ++end) {
-      const std::uint32_t i = entries[end].index;
-      x_.push_back(points(i, 0));
-      y_.push_back(points(i, 1));
-      z_.push_back(points(i, 2));
-      index_.push_back(i);
-    }
+    while (end < entries.size() && entries[end].key == entries[begin].key) ++end;
     std::size_t at = scatter(entries[begin].key, slots_.size() - 1);
     while (slots_[at].rod.end != 0) at = (at + 1) & (slots_.size() - 1);
     slots_[at] = {entries[begin].key,
                   {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}};
     begin = end;
   }
-  for (auto* column : {&x_, &y_, &z_}) column->resize(size() + kGridPadding, 0);
 }
 
 std::vector<GridRun> PointGrid::pieces(float length) const {

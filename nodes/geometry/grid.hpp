@@ -52,6 +52,25 @@ class PointGrid {
     });
   }
 
+  /// Whether test(index, squared distance) holds for any point within `radius` of `center`; asks no
+  /// further once it does.
+  template <class Test>
+  bool any_within(const Eigen::Vector3f& center, float radius, const Test& test) const {
+    if (!center.allFinite() || !(radius >= 0)) return false;
+    const float squared_radius = radius * radius;
+    bool found = false;
+    for_each_run(center, center, radius, [&](const GridRun& run) {
+      for (std::size_t i = run.begin; i < run.end && !found; ++i) {
+        const float dx = x_[i] - center.x();
+        const float dy = y_[i] - center.y();
+        const float dz = z_[i] - center.z();
+        const float squared = dx * dx + dy * dy + dz * dz;
+        found = squared <= squared_radius && test(index_[i], squared);
+      }
+    });
+    return found;
+  }
+
   /// Sets `runs` to runs of points that hold all those within `radius` of the box from `low` to
   /// `high` (finite), and some others: the way in for kernels that take many points at once.
   void find_runs(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float radius,

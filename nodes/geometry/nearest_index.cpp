@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "nodes/geometry/cells.hpp"
@@ -17,7 +18,8 @@ constexpr std::int64_t kSide = 1 << kShift;
 constexpr std::uint32_t kCubesPerBlock = kSide * kSide * kSide;
 constexpr std::size_t kFewestSlots = 64;
 constexpr std::size_t kPointsPerBlock = 8;  // at least, on average: more memory serves nobody
-constexpr std::size_t kFreeBlocks = 128;    // of which that is not asked
+constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kFreeBlocks = 128;  // of which that is not asked
 
 /// The key of a block's place. Blocks so far apart that their places wrap share a key, which costs looks
 /// at points that are too far, no more.
@@ -34,12 +36,9 @@ std::int64_t floor_of(double value) {
   return whole - static_cast<std::int64_t>(value < static_cast<double>(whole));
 }
 
-/// The cube that holds a place, by its coordinates in edges.
-inline std::array<std::int64_t, 3> cube_of(const Eigen::Vector3d& in_edges) {
-  const auto place = [&in_edges](Eigen::Index axis) {
-    return floor_of(std::clamp(in_edges[axis], -kFarthest, kFarthest));
-  };
-  return {place(0), place(1), place(2)};
+/// Of the cube that holds a point, along one axis.
+std::int64_t place_of(double in_edges) {
+  return floor_of(std::clamp(in_edges, -kFarthest, kFarthest));
 }
 
 /// The number of a cube in its block; those along z follow one another.
@@ -50,11 +49,11 @@ std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 }  // namespace
 
-NearestIndex::NearestIndex(const PointMatrix& points, float edge) {
+NearestIndex::NearestIndex(const PointMatrix& points, float distance) {
   const std::vector<std::uint32_t> rows = finite_rows(points);
-  if (rows.empty() || !(edge > 0) || !std::isfinite(edge)) return;
-  // A trifle more, so that a search for one edge seldom meets more than three cubes an axis.
-  per_edge_ = 1 / (1.0001 * static_cast<double>(edge));
+  if (rows.empty() || !(distance > 0) || !std::isfinite(distance)) return;
+  // A trifle more, so that a search for that distance seldom meets a third cube along an axis.
+  per_edge_ = 1 / (2.0002 * static_cast<double>(distance));
   std::vector<std::size_t> cubes = number_cubes(points, rows);
   for (; blocks_ > kFreeBlocks + rows.size() / kPointsPerBlock; cubes = number_cubes(points, rows))
     per_edge_ /= 2;
@@ -64,10 +63,13 @@ NearestIndex::NearestIndex(const PointMatrix& points, float edge) {
   for (std::uint32_t& count : begin_) count = std::exchange(sum, sum + count);
   begin_.push_back(sum);
   std::vector<std::uint32_t> next = begin_;
-  points_.resize(rows.size());
+  const std::size_t size = rows.size() + kGridPadding;
+  x_.assign(size, kNowhere), y_.assign(size, kNowhere), z_.assign(size, kNowhere);
+  index_.assign(size, kNone);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const std::uint32_t i = rows[k];
-    points_[next[cubes[k]]++] = {points(i, 0), points(i, 1), points(i, 2), i};
+    const std::uint32_t i = rows[k], at = next[cubes[k]]++;
+    x_[at] = points(i, 0), y_[at] = points(i, 1), z_[at] = points(i, 2);
+    index_[at] = i;
   }
 }
 
@@ -79,7 +81,10 @@ std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
   std::vector<std::size_t> cubes;
   cubes.reserve(rows.size());
   for (const std::uint32_t i : rows) {
-    const auto [x, y, z] = cube_of(per_edge_ * points.row(i).transpose().cast<double>());
+    const auto along = [&](Eigen::Index axis) {
+      return place_of(per_edge_ * static_cast<double>(points(i, axis)));
+    };
+    const std::int64_t x = along(0), y = along(1), z = along(2);
     const std::uint32_t block = claim(key_of(x >> kShift, y >> kShift, z >> kShift));
     cubes.push_back(std::size_t{block} * kCubesPerBlock + place_in_block(x, y, z));
   }
@@ -109,93 +114,103 @@ std::uint32_t NearestIndex::claim(std::uint64_t key) {
   return blocks_ - 1;
 }
 
+void NearestIndex::hide(const std::vector<char>& hidden) {
+  for (std::size_t at = 0; at < index_.size(); ++at)
+    if (index_[at] != kNone && hidden[index_[at]] != 0) x_[at] = kNowhere;
+}
+
+namespace {
+
+/// Cubes, or blocks, along one axis.
+struct Span {
+  std::int64_t first, last;
+};
+
+/// The cubes that a ball meets along an axis, and a trifle more: only the distance decides who is in.
+inline Span cubes_around(double in_edges, double reach) {
+  return {floor_of(std::max(in_edges - reach, -kFarthest)),
+          floor_of(std::min(in_edges + reach, kFarthest))};
+}
+inline Span blocks_of(const Span& cubes) { return {cubes.first >> kShift, cubes.last >> kShift}; }
+inline Span in_block(const Span& cubes, std::int64_t block) {
+  return {std::max(cubes.first - kSide * block, std::int64_t{0}),
+          std::min(cubes.last - kSide * block, kSide - 1)};
+}
+inline double count(const Span& span) { return static_cast<double>(span.last - span.first + 1); }
+
+}  // namespace
+
 /// The search for the point nearest to one place.
 class NearestIndex::Search {
  public:
-  Search(const NearestIndex& index, const Eigen::Vector3f& center, float distance,
-         const std::vector<char>& hidden)
-      : index_(index),
-        hidden_(hidden),
-        center_(center),
-        in_edges_(index.per_edge_ * center.cast<double>()),
-        farthest_(distance * distance) {
-    bound(static_cast<double>(distance));
+  Search(const NearestIndex& index, const Eigen::Vector3f& center, float distance)
+      : index_(index), center_(center.data()), farthest_(distance * distance) {}
+
+  void look(std::uint32_t begin, std::uint32_t end) {
+    if (count_ == kRuns) look_up();
+    runs_[count_] = {begin, end};
+    count_ += begin < end;
   }
 
-  std::optional<Neighbour> run() {
-    double blocks = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      blocks *= static_cast<double>((high_[axis] >> kShift) - (low_[axis] >> kShift) + 1);
-    if (blocks > static_cast<double>(index_.blocks_) + 8) {  // fewer than places to look for them
-      look(0, index_.points_.size());
-      return best_;
-    }
-    look_around_center();
-    if (best_ && low_ == high_) return best_;  // in that cube alone
-    for (std::int64_t x = low_[0] >> kShift; x <= high_[0] >> kShift; ++x)
-      for (std::int64_t y = low_[1] >> kShift; y <= high_[1] >> kShift; ++y)
-        for (std::int64_t z = low_[2] >> kShift; z <= high_[2] >> kShift; ++z) look_in(x, y, z);
-    return best_;
+  void look_in(std::uint32_t block, const Span& x, const Span& y, const Span& z) {
+    const std::uint32_t* begin = &index_.begin_[std::size_t{block} * kCubesPerBlock];
+    for (std::int64_t i = x.first; i <= x.last; ++i)
+      for (std::int64_t j = y.first; j <= y.last; ++j) {
+        const std::uint32_t* row = begin + (i * kSide + j) * kSide;
+        look(row[z.first], row[z.last + 1]);
+      }
+  }
+
+  std::optional<Neighbour> result() {
+    look_up();
+    if (best_.index == kNone) return std::nullopt;
+    return Neighbour{best_.index, best_.squared};
   }
 
  private:
-  /// To the cubes that the ball meets, and a trifle more: only the distance decides who is in.
-  void bound(double distance) {
-    const double reach = 1.000001 * distance * index_.per_edge_;
-    low_ = cube_of(in_edges_ - Eigen::Vector3d::Constant(reach));
-    high_ = cube_of(in_edges_ + Eigen::Vector3d::Constant(reach));
-  }
+  static constexpr std::size_t kRuns = 16;  // that are looked at together
 
-  /// What is in the cube of the place itself spares most of those around.
-  void look_around_center() {
-    const auto [x, y, z] = cube_of(in_edges_);
-    const std::uint32_t block = index_.find(key_of(x >> kShift, y >> kShift, z >> kShift));
-    if (block == kNone) return;
-    const std::uint32_t* begin =
-        &index_.begin_[std::size_t{block} * kCubesPerBlock + place_in_block(x, y, z)];
-    look(begin[0], begin[1]);
-    if (best_) bound(std::sqrt(static_cast<double>(best_->squared)));
-  }
-
-  void look_in(std::int64_t block_x, std::int64_t block_y, std::int64_t block_z) {
-    const std::uint32_t block = index_.find(key_of(block_x, block_y, block_z));
-    if (block == kNone) return;
-    const std::uint32_t* begin = &index_.begin_[std::size_t{block} * kCubesPerBlock];
-    const Cube first{std::max(low_[0], kSide * block_x), std::max(low_[1], kSide * block_y),
-                     std::max(low_[2], kSide * block_z)};
-    const Cube last{std::min(high_[0], kSide * block_x + kSide - 1),
-                    std::min(high_[1], kSide * block_y + kSide - 1),
-                    std::min(high_[2], kSide * block_z + kSide - 1)};
-    for (std::int64_t x = first[0]; x <= last[0]; ++x)
-      for (std::int64_t y = first[1]; y <= last[1]; ++y)
-        look(begin[place_in_block(x, y, first[2])], begin[place_in_block(x, y, last[2]) + 1]);
-  }
-
-  void look(std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Point& p = index_.points_[i];
-      const float dx = p.x - center_.x(), dy = p.y - center_.y(), dz = p.z - center_.z();
-      const float squared = dx * dx + dy * dy + dz * dz;
-      if (squared > farthest_ || hidden_[p.index]) continue;
-      if (best_ && squared == best_->squared && p.index > best_->index) continue;
-      best_ = Neighbour{p.index, squared};
-      farthest_ = squared;
-    }
+  void look_up() {
+    if (count_ == 0) return;
+    const PointColumns columns{index_.x_.data(), index_.y_.data(), index_.z_.data(),
+                               index_.index_.data()};
+    const NearestPoint found = nearest_in_runs(columns, runs_, count_, center_, farthest_);
+    count_ = 0;
+    const bool ties = best_.index != kNone && found.squared == best_.squared;
+    if (found.index == kNone || (ties && found.index > best_.index)) return;
+    best_ = found;
+    farthest_ = found.squared;
   }
 
   const NearestIndex& index_;
-  const std::vector<char>& hidden_;
-  Eigen::Vector3f center_;
-  Eigen::Vector3d in_edges_;
-  Cube low_, high_;
-  std::optional<Neighbour> best_;
+  const float* center_;
   float farthest_;  ///< squared distance of what is still looked for
+  NearestPoint best_;
+  std::size_t count_ = 0;  ///< of runs_
+  GridRun runs_[kRuns];
 };
 
-std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center, float distance,
-                                               const std::vector<char>& hidden) const {
-  if (points_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
-  return Search(*this, center, distance, hidden).run();
+std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
+                                               float distance) const {
+  if (index_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
+  const double reach = 1.000001 * static_cast<double>(distance) * per_edge_;
+  const Span x = cubes_around(per_edge_ * static_cast<double>(center.x()), reach);
+  const Span y = cubes_around(per_edge_ * static_cast<double>(center.y()), reach);
+  const Span z = cubes_around(per_edge_ * static_cast<double>(center.z()), reach);
+  const Span blocks_x = blocks_of(x), blocks_y = blocks_of(y), blocks_z = blocks_of(z);
+  Search search(*this, center, distance);
+  if (count(blocks_x) * count(blocks_y) * count(blocks_z) > static_cast<double>(blocks_) + 8) {
+    search.look(0,
+                static_cast<std::uint32_t>(index_.size()));  // fewer than places to look for them
+    return search.result();
+  }
+  for (std::int64_t i = blocks_x.first; i <= blocks_x.last; ++i)
+    for (std::int64_t j = blocks_y.first; j <= blocks_y.last; ++j)
+      for (std::int64_t k = blocks_z.first; k <= blocks_z.last; ++k) {
+        const std::uint32_t block = find(key_of(i, j, k));
+        if (block != kNone) search.look_in(block, in_block(x, i), in_block(y, j), in_block(z, k));
+      }
+  return search.result();
 }
 
 }  // namespace posevote::geometry

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearest-neighbour search for millions of queries, most of which ask for one distance or less.
 //
-// Space is cut into cubes with that distance as their edge, cubes come in blocks of 8 x 8 x 8, and
-// only blocks that hold points exist, in a hash table. A query looks in its own cube first, and then
-// only in those within the distance found there, mostly a few; where nothing is near, which is most
-// of the space around a pose that is wrong, it ends after the look-ups. Memory: 16 bytes a point, 2 KB a block; where
-// points are so sparse that few share a block, cubes are larger. O(points) to build.
+// Space is cut into cubes with twice that distance as their edge, cubes come in blocks of 8 x 8 x 8,
+// and only blocks that hold points exist, in a hash table. A query meets one or two cubes along each
+// axis, whose points lie in up to four runs that a vector kernel looks at together; where nothing is
+// near, which is most of the space around a pose that is wrong, it ends after the look-ups. Memory:
+// 16 bytes a point, 2 KB a block; where points are so sparse that few share a block, cubes are
+// larger. O(points) to build.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/nearest_kernel.hpp"
 
 namespace posevote::geometry {
 
@@ -23,25 +24,20 @@ struct Neighbour {
   float squared = 0;  ///< squared distance [m^2]
 };
 
-/// Immutable once built; safe to read from many threads. Points that are not finite are never
-/// found.
+/// Safe to read from many threads. Points that are not finite are never found.
 class NearestIndex {
  public:
-  /// `edge`: the distance that is asked for most [m]; larger ones are answered, more slowly. Finds
-  /// nothing if it is not above 0 or not finite.
-  NearestIndex(const PointMatrix& points, float edge);
+  /// `distance`: that is asked for most [m]; larger ones are answered, more slowly. Finds nothing if
+  /// it is not above 0 or not finite.
+  NearestIndex(const PointMatrix& points, float distance);
 
-  /// The nearest point within `distance` of which hidden[index] is 0; of several at one distance
-  /// the one with the smallest index.
-  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float distance,
-                                   const std::vector<char>& hidden) const;
+  /// From now on, points with hidden[index] are not found. Not while others read.
+  void hide(const std::vector<char>& hidden);
+
+  /// The nearest point within `distance`; of several at one distance the one with the smallest index.
+  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float distance) const;
 
  private:
-  using Cube = std::array<std::int64_t, 3>;  ///< its place along each axis
-  struct Point {
-    float x, y, z;
-    std::uint32_t index;
-  };
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   class Search;
   struct Slot {
@@ -55,8 +51,10 @@ class NearestIndex {
   std::uint32_t claim(std::uint64_t block_key);
   std::uint32_t find(std::uint64_t block_key) const;
 
-  double per_edge_ = 1;               ///< cubes in a metre
-  std::vector<Point> points_;         ///< cube by cube, block by block
+  double per_edge_ = 1;  ///< cubes in a metre
+  // The points, cube by cube, block by block, and behind them some that are none (PointColumns).
+  std::vector<float> x_, y_, z_;
+  std::vector<std::uint32_t> index_;
   std::vector<std::uint32_t> begin_;  ///< of each cube's points; behind the last the end of all
   std::vector<Slot> slots_;           ///< blocks; open addressing, a power of two
   std::uint32_t blocks_ = 0;

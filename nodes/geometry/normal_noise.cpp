@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,12 +16,12 @@ namespace posevote::geometry {
 namespace {
 
 using Cell = std::array<int, 3>;
-using Normals = std::map<Cell, Eigen::Vector3f>;
 
 struct CubeNormal {
   Cell cell;
   Eigen::Vector3f normal;
 };
+using Normals = std::vector<CubeNormal>;  // by cell, each once
 
 constexpr std::size_t kFewestPoints = 8;  // of a cube
 constexpr std::size_t kFewestTilts = 20;
@@ -66,8 +65,18 @@ Normals normals_of_cubes(const PointMatrix& points, const std::vector<std::uint3
   });
   Normals normals;
   for (const auto& one : found)
-    if (one) normals[one->cell] = one->normal;
+    if (one) normals.push_back(*one);
+  // Where rounding gives two cubes one cell, the last counts.
+  std::ranges::reverse(normals);
+  std::ranges::stable_sort(normals, {}, &CubeNormal::cell);
+  const auto twice = std::ranges::unique(normals, {}, &CubeNormal::cell);
+  normals.erase(twice.begin(), twice.end());
   return normals;
+}
+
+const Eigen::Vector3f* normal_at(const Normals& normals, const Cell& cell) {
+  const auto at = std::ranges::lower_bound(normals, cell, {}, &CubeNormal::cell);
+  return at != normals.end() && at->cell == cell ? &at->normal : nullptr;
 }
 
 std::vector<float> tilts_of(const Normals& normals) {
@@ -77,9 +86,10 @@ std::vector<float> tilts_of(const Normals& normals) {
       Cell before = cell, after = cell;
       --before[axis];
       ++after[axis];
-      const auto one = normals.find(before), other = normals.find(after);
-      if (one == normals.end() || other == normals.end()) continue;
-      const float along = normal.dot((one->second + other->second).normalized());
+      const Eigen::Vector3f* one = normal_at(normals, before);
+      const Eigen::Vector3f* other = one ? normal_at(normals, after) : nullptr;
+      if (!other) continue;
+      const float along = normal.dot((*one + *other).normalized());
       tilts.push_back(std::acos(std::clamp(along, -1.0F, 1.0F)));
     }
   return tilts;

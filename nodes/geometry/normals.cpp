@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "graph/parallel.hpp"
+#include "nodes/geometry/rows_that.hpp"
 #include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::geometry {
@@ -41,15 +43,17 @@ void normalise(PointMatrix& normals) {
 }
 
 void turn_toward(const Eigen::Vector3f& sensor, const PointMatrix& points, PointMatrix& normals) {
-  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+  graph::parallel_for(static_cast<std::size_t>(normals.rows()), 8192, [&](std::size_t row) {
+    const auto i = static_cast<Eigen::Index>(row);
     if (normals.row(i).dot(sensor.transpose() - points.row(i)) < 0) normals.row(i) *= -1.0F;
+  });
 }
 
 std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointMatrix& normals) {
-  std::vector<std::uint32_t> rows;
-  for (Eigen::Index i = 0; i < normals.rows(); ++i)
-    if (!normals.row(i).isZero() && normals.row(i).allFinite() && points.row(i).allFinite())
-      rows.push_back(static_cast<std::uint32_t>(i));
+  std::vector<std::uint32_t> rows =
+      rows_that(static_cast<std::size_t>(normals.rows()), [&](std::uint32_t i) {
+        return !normals.row(i).isZero() && normals.row(i).allFinite() && points.row(i).allFinite();
+      });
   if (rows.empty())
     throw std::runtime_error("none of its " + std::to_string(points.rows()) +
                              " points has a usable normal");

@@ -54,13 +54,15 @@ std::uint64_t hash_of(const Place& place) {
 std::vector<Place> places_of(const PointMatrix& points, std::size_t most) {
   const std::vector<std::uint32_t> finite = finite_rows(points);
   const std::size_t step = std::max<std::size_t>(1, finite.size() / most);
-  std::vector<Place> places;
-  places.reserve(std::min(finite.size(), 2 * (finite.size() / step)));
-  for (const std::uint32_t i : finite) {
-    const Place place{points(i, 0), points(i, 1), points(i, 2)};
-    if (step == 1 || hash_of(place) % step == 0) places.push_back(place);
-  }
-  return places;
+  return joined_ranges(finite.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Place> places;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = finite[k];
+      const Place place{points(i, 0), points(i, 1), points(i, 2)};
+      if (step == 1 || hash_of(place) % step == 0) places.push_back(place);
+    }
+    return places;
+  });
 }
 
 void keep_one_each(std::vector<Place>& places) {

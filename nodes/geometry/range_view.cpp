@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/parallel.hpp"
+#include "nodes/geometry/rows_that.hpp"
+
 namespace posevote::geometry {
 namespace {
 
@@ -31,16 +34,27 @@ RangeView::RangeView(const Cloud& scan, float resolution, const ViewTerms& terms
       image_(scan.view.image),
       least_axis_cosine_(static_cast<float>(terms.least_axis_cosine)) {
   if (!(resolution > 0) || !find_axis(scan, resolution, terms)) return;
-  std::vector<Eigen::Vector3f> image_points;
-  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
-    const Eigen::Vector3f p = to_image(scan.points.row(i).transpose());
-    if (p.z() > resolution) image_points.push_back(p);
-  }
+  const auto count = static_cast<std::size_t>(scan.points.rows());
+  const auto image_points = joined_ranges(count, [&](std::size_t begin, std::size_t end) {
+    std::vector<Eigen::Vector3f> in_image;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::Vector3f p = to_image(scan.points.row(row).transpose());
+      if (p.z() > resolution) in_image.push_back(p);
+    }
+    return in_image;
+  });
   const auto expected = static_cast<float>(terms.trusted) * static_cast<float>(scan.points.rows());
   if (static_cast<float>(image_points.size()) < expected) return;
   lay_out(image_points, resolution / median_range(image_points), terms.most_cells);
   const float half_width = static_cast<float>(terms.footprint) * resolution;
-  for (const Eigen::Vector3f& p : image_points) splat(p, half_width / p.z(), terms.most_half_cells);
+  // In bands, side by side; each cell takes the nearest of all.
+  constexpr std::size_t kBands = 8;
+  graph::parallel_for(kBands, 1, [&](std::size_t band) {
+    const auto row = [&](std::size_t b) { return static_cast<int>(b) * height_ / int{kBands}; };
+    for (const Eigen::Vector3f& p : image_points)
+      splat(p, half_width / p.z(), terms.most_half_cells, row(band), row(band + 1) - 1);
+  });
 }
 
 bool RangeView::find_axis(const Cloud& scan, float resolution, const ViewTerms& terms) {
@@ -82,11 +96,13 @@ void RangeView::lay_out(const std::vector<Eigen::Vector3f>& image_points, float 
   range_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0F);
 }
 
-void RangeView::splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells) {
+void RangeView::splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells,
+                      int first_row, int last_row) {
+  const int v = static_cast<int>((image_point.y() - origin_.y()) / cell_);
+  if (v + most_half_cells < first_row || v - most_half_cells > last_row) return;
   const int reach = std::min(most_half_cells, static_cast<int>(std::lround(half_width / cell_)));
   const int u = static_cast<int>((image_point.x() - origin_.x()) / cell_);
-  const int v = static_cast<int>((image_point.y() - origin_.y()) / cell_);
-  for (int y = std::max(0, v - reach); y <= std::min(height_ - 1, v + reach); ++y)
+  for (int y = std::max(first_row, v - reach); y <= std::min(last_row, v + reach); ++y)
     for (int x = std::max(0, u - reach); x <= std::min(width_ - 1, u + reach); ++x) {
       float& range = range_[cell_at(x, y)];
       if (range == 0 || image_point.z() < range) range = image_point.z();

@@ -47,7 +47,9 @@ class RangeView {
  private:
   bool find_axis(const Cloud& scan, float resolution, const ViewTerms& terms);
   void lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell, int most_cells);
-  void splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells);
+  /// Into rows of cells from the first to the last.
+  void splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells,
+             int first_row, int last_row);
   Eigen::Vector3f to_image(const Eigen::Vector3f& point) const;
 
   Eigen::Vector3f viewpoint_ = Eigen::Vector3f::Zero();

@@ -30,11 +30,15 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
     points_.push_back({scan.points.row(i).transpose(), scan.normals.row(i).transpose()});
     gone_[points_.size() - 1] = static_cast<char>(!(points_.back().normal.squaredNorm() > 0.5F));
   }
+  near_.hide(gone_);
+  far_.hide(gone_);
 }
 
 void ScanSurface::take_out(const std::vector<char>& explained) {
   for (std::size_t i = 0; i < gone_.size(); ++i)
     gone_[i] = static_cast<char>(gone_[i] | explained[i]);
+  near_.hide(gone_);
+  far_.hide(gone_);
 }
 
 float ScanSurface::facing_cosine(const OrientedPoint& p) const {
@@ -49,8 +53,8 @@ float ScanSurface::facing_cosine(const OrientedPoint& p) const {
 std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
                                                    float distance) const {
   // What is found within reach spares a look at all that is farther.
-  const auto near = near_.nearest(point, std::min(distance, reach_), gone_);
-  return near || distance <= reach_ ? near : far_.nearest(point, distance, gone_);
+  const auto near = near_.nearest(point, std::min(distance, reach_));
+  return near || distance <= reach_ ? near : far_.nearest(point, distance);
 }
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/radix_sort.hpp"
 
@@ -47,14 +48,14 @@ Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows
                const Extent& extent, const Eigen::Array3d& counts, double per_leaf) {
   const auto columns = static_cast<Number>(counts.x()), lines = static_cast<Number>(counts.y());
   std::vector<Member<Number>> members(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  graph::parallel_for(rows.size(), 8192, [&](std::size_t i) {
     const Eigen::Array3d point = points.row(rows[i]).transpose().cast<double>();
     const Eigen::Array3d cell = (point - extent.low) * per_leaf;
     members[i] = {
         (static_cast<Number>(cell.z()) * lines + static_cast<Number>(cell.y())) * columns +
             static_cast<Number>(cell.x()),
         rows[i]};
-  }
+  });
   radix_sort(members, [](const Member<Number>& one) { return one.voxel; });
   Voxels voxels;
   voxels.order.reserve(members.size());
@@ -77,8 +78,9 @@ Eigen::RowVector3d Voxels::centroid(const PointMatrix& points, std::size_t voxel
 
 PointMatrix Voxels::centroids(const PointMatrix& points) const {
   PointMatrix centroids(static_cast<Eigen::Index>(size()), 3);
-  for (std::size_t v = 0; v < size(); ++v)
+  graph::parallel_for(size(), 2048, [&](std::size_t v) {
     centroids.row(static_cast<Eigen::Index>(v)) = centroid(points, v).cast<float>();
+  });
   return centroids;
 }
 

@@ -2,6 +2,7 @@
 #include "nodes/pairs/cast.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -19,6 +20,24 @@ void add_vote(VoteSet& votes, const PairTable& table, const Reference& reference
                                    from.axes().transpose();
   votes.add_single(reference.frame.point + rotation * (votes.model->center - from.point),
                    Eigen::Quaternionf(rotation), reference.row);
+}
+
+/// A copy that takes so many single votes more without another.
+VoteSet with_room(const VoteSet& given, std::size_t more) {
+  VoteSet votes;
+  votes.model = given.model;
+  votes.votes_per_correspondence = given.votes_per_correspondence;
+  votes.scene_feature = given.scene_feature;
+  votes.single_feature = given.single_feature;
+  constexpr std::array kColumns = {&VoteSet::tx, &VoteSet::ty, &VoteSet::tz, &VoteSet::qw,
+                                   &VoteSet::qx, &VoteSet::qy, &VoteSet::qz};
+  graph::parallel_for(kColumns.size(), 1, [&](std::size_t c) {
+    const std::vector<float>& from = given.*kColumns[c];
+    std::vector<float>& to = votes.*kColumns[c];
+    to.reserve(from.size() + more);
+    to.assign(from.begin(), from.end());
+  });
+  return votes;
 }
 
 /// Objects whose pairs start from the same references in the same scene: what is around those is
@@ -99,14 +118,16 @@ PerObject<VoteSet> cast(const PerObject<VoteSet>& given, const std::vector<Sourc
                         const PeakOptions& options) {
   const Peaks peaks = find_peaks(sources, options);
   PerObject<VoteSet> votes = given;
-  for (std::size_t object = 0; object < sources.size(); ++object) {
-    if (peaks[object].empty()) continue;
-    auto more = std::make_shared<VoteSet>(given[object]);
+  graph::parallel_for(sources.size(), 1, [&](std::size_t object) {
+    if (peaks[object].empty()) return;
+    std::size_t count = 0;
+    for (const auto& of_reference : peaks[object]) count += of_reference.size();
+    auto more = std::make_shared<VoteSet>(with_room(given[object], count));
     for (std::size_t i = 0; i < peaks[object].size(); ++i)
       for (const PairPeak& peak : peaks[object][i])
         add_vote(*more, *sources[object].table, (*sources[object].references)[i], peak);
     votes.slots[object] = std::move(more);
-  }
+  });
   return votes;
 }
 

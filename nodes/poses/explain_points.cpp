@@ -37,9 +37,8 @@ std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& 
     // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
     // one.
     for (const float reach : {0.5F * distance, distance}) {  // most that have one have it close by
-      bool near = false;
-      model_grid.for_each_within(point, reach, [&](std::uint32_t neighbour, float) {
-        near = near || model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
+      const bool near = model_grid.any_within(point, reach, [&](std::uint32_t neighbour, float) {
+        return model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
       });
       explained[i] = static_cast<char>(near);
       if (near) return;

@@ -102,7 +102,6 @@ double noise_of(const Sought& sought, const std::vector<geometry::IcpPair>& pair
     points.row(static_cast<Eigen::Index>(i)) = pairs[i].point.cast<float>().transpose();
   const float reach = sought.params.tolerance;
   const geometry::NearestIndex index(points, reach);
-  const std::vector<char> none_gone(pairs.size(), 0);
   const Eigen::Vector3f center = (T_scene_model * model.center.cast<double>()).cast<float>();
   const float radius = model.diagonal / 2 + reach;
   const Eigen::Matrix3d R_scene_model = T_scene_model.linear();
@@ -110,7 +109,7 @@ double noise_of(const Sought& sought, const std::vector<geometry::IcpPair>& pair
   for (Eigen::Index i = 0; i < sought.scan.cloud.points.rows(); ++i) {
     const Eigen::Vector3f point = sought.scan.cloud.points.row(i).transpose();
     if (!((point - center).squaredNorm() < radius * radius)) continue;
-    const auto nearest = index.nearest(point, reach, none_gone);
+    const auto nearest = index.nearest(point, reach);
     if (!nearest) continue;
     const geometry::IcpPair& pair = pairs[nearest->index];
     const Eigen::Vector3d normal =

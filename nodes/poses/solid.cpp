@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/solid.hpp"
 
+#include <algorithm>
+#include <vector>
+
+#include "graph/parallel.hpp"
+
 namespace posevote::poses {
 namespace {
 
@@ -26,10 +31,15 @@ Solid::Solid(const Cloud& model, const Eigen::Isometry3d& T_scene_model, float d
 double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_other) const {
   const Eigen::Isometry3f T = (T_model_scene_ * T_scene_other).cast<float>();
   const Eigen::Index stride = other.points.rows() / kSample + 1;
-  double inside = 0, all = 0;
-  for (Eigen::Index i = 0; i < other.points.rows(); i += stride, ++all)
-    inside += has_inside(T * Eigen::Vector3f(other.points.row(i).transpose()));
-  return all > 0 ? inside / all : 0;
+  std::vector<char> inside(static_cast<std::size_t>((other.points.rows() + stride - 1) / stride));
+  graph::parallel_for(inside.size(), 32, [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(i) * stride;
+    inside[i] =
+        static_cast<char>(has_inside(T * Eigen::Vector3f(other.points.row(row).transpose())));
+  });
+  if (inside.empty()) return 0;
+  const auto count = std::count(inside.begin(), inside.end(), char{1});
+  return static_cast<double>(count) / static_cast<double>(inside.size());
 }
 
 bool Solid::has_inside(const Eigen::Vector3f& point) const {
@@ -52,12 +62,10 @@ Eigen::Index Solid::nearest(const Eigen::Vector3f& point, float from) const {
 }
 
 bool Solid::is_sheet(Eigen::Index row) const {
-  bool is_back_there = false;
-  grid_.for_each_within(model_.points.row(row).transpose(), depth_, [&](std::uint32_t i, float) {
-    const auto back = static_cast<Eigen::Index>(i);
-    is_back_there = is_back_there || model_.normals.row(row).dot(model_.normals.row(back)) < -kBack;
+  const Eigen::Vector3f point = model_.points.row(row).transpose();
+  return grid_.any_within(point, depth_, [&](std::uint32_t i, float) {
+    return model_.normals.row(row).dot(model_.normals.row(static_cast<Eigen::Index>(i))) < -kBack;
   });
-  return is_back_there;
 }
 
 }  // namespace posevote::poses

@@ -18,6 +18,7 @@
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/geometry/normals.hpp"
+#include "nodes/geometry/rows_that.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::prepare {
@@ -75,11 +76,14 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
   const std::vector<std::uint32_t> usable = geometry::oriented_rows(cloud.points, cloud.normals);
   const geometry::Voxels voxels = geometry::group_by_voxel(
       cloud.points, usable, static_cast<float>(params.leaf_size) * scale.resolution);
-  std::vector<Group> groups;
-  groups.reserve(voxels.size());
-  for (std::size_t v = 0; v < voxels.size(); ++v)
-    for (const Group& side : group(cloud, voxels[v]))
-      if (side.normals.norm() > 1e-6 * side.count) groups.push_back(side);
+  const auto groups =
+      geometry::joined_ranges(voxels.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Group> made;
+        for (std::size_t v = begin; v < end; ++v)
+          for (const Group& side : group(cloud, voxels[v]))
+            if (side.normals.norm() > 1e-6 * side.count) made.push_back(side);
+        return made;
+      });
   const auto count = static_cast<Eigen::Index>(groups.size());
   const bool is_colored = cloud.colors.rows() > 0;
   Cloud out{PointMatrix(count, 3), PointMatrix(count, 3), cloud.view,

@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/geometry/normals.hpp"
@@ -49,8 +50,10 @@ constexpr float kSpacings = 6;  ///< fewest of the points' own distances in a ra
 
 /// Fills the rows that are still zero.
 void fill(PointMatrix& normals, const PointMatrix& with) {
-  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+  graph::parallel_for(static_cast<std::size_t>(normals.rows()), 8192, [&](std::size_t row) {
+    const auto i = static_cast<Eigen::Index>(row);
     if (normals.row(i).isZero()) normals.row(i) = with.row(i);
+  });
 }
 
 /// Whether most of the normals roughly agree with the planes.

@@ -257,7 +257,9 @@ std::optional<PointMatrix> image_normals(const Scan& scan, float smallest, float
   if (!is_quick(radius)) return std::nullopt;
   const PointMatrix of_pixels = planes.normals(radius, min_neighbours);
   PointMatrix normals = PointMatrix::Zero(scan.points.rows(), 3);
-  for (const auto& [point, pixel] : places) normals.row(point) = of_pixels.row(pixel);
+  graph::parallel_for(places.size(), 8192, [&](std::size_t i) {
+    normals.row(places[i].point) = of_pixels.row(places[i].pixel);
+  });
   return normals;
 }
 

@@ -21,8 +21,8 @@
 #include "graph/registry.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/descriptors/octaves.hpp"
-#include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/normal_noise.hpp"
+#include "nodes/geometry/rows_that.hpp"
 #include "nodes/geometry/sensor_noise.hpp"
 
 namespace posevote::prepare {
@@ -41,11 +41,9 @@ constexpr double kDegree = 0.017453292519943295;  // [rad]
 
 /// The points no farther from the sensor than that.
 std::vector<std::uint32_t> near_rows(const Scan& scan, float range) {
-  std::vector<std::uint32_t> rows = geometry::finite_rows(scan.points);
-  std::erase_if(rows, [&](std::uint32_t i) {
-    return (scan.points.row(i).transpose() - scan.view.origin).norm() > range;
+  return geometry::rows_that(static_cast<std::size_t>(scan.points.rows()), [&](std::uint32_t i) {
+    return (scan.points.row(i).transpose() - scan.view.origin).norm() <= range;
   });
-  return rows;
 }
 
 /// Says what is too coarse or too noisy for the objects, whose coarsest octave that is [m].

@@ -147,11 +147,10 @@ PointMatrix posed_points() {
 void nearest_by_index(benchmark::State& state) {
   const PointMatrix& points = setting().scan.cloud.points;
   const geometry::NearestIndex near(points, 2 * kResolution);
-  const std::vector<char> shown(static_cast<std::size_t>(points.rows()), 0);
   const PointMatrix queries = posed_points();
   for (auto _ : state)
     for (Eigen::Index i = 0; i < queries.rows(); ++i)
-      benchmark::DoNotOptimize(near.nearest(queries.row(i).transpose(), 2 * kResolution, shown));
+      benchmark::DoNotOptimize(near.nearest(queries.row(i).transpose(), 2 * kResolution));
   count_items(state, queries.rows());
 }
 

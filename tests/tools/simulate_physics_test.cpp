@@ -44,11 +44,10 @@ Eigen::Matrix3Xd points_of(const Body& body) {
 double reach_into(const Body& body, const Body& other) {
   const Eigen::Matrix3Xd in_other = other.T_world_body.inverse() * points_of(body);
   const geometry::NearestIndex surface(other.mesh->points, 0.01F);
-  const std::vector<char> none_hidden(static_cast<std::size_t>(other.mesh->points.rows()), 0);
   double deepest = 0;
   for (Eigen::Index v = 0; v < in_other.cols(); v += 400)
     if (winding_number(*other.mesh, in_other.col(v)) > 0.5)
-      if (const auto near = surface.nearest(in_other.col(v).cast<float>(), 0.1F, none_hidden))
+      if (const auto near = surface.nearest(in_other.col(v).cast<float>(), 0.1F))
         deepest = std::max(deepest, std::sqrt(double{near->squared}));
   return deepest;
 }

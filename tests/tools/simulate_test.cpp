@@ -99,13 +99,12 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
     const Scan scan = formats::read_scan(
         folder / "a" / "scans" / ("00000" + std::to_string(instance.im_id) + ".ply"), 1);
     const geometry::NearestIndex surface(scan.points, 0.01F);
-    const std::vector<char> none_hidden(static_cast<std::size_t>(scan.points.rows()), 0);
     const layouts::TrueObject& object = truth.objects.at(instance.obj_id);
     std::vector<float> distances;
     for (Eigen::Index i = 0; i < object.points.rows(); i += 3) {
       const Eigen::Vector3d point =
           instance.T_scene_model * object.points.row(i).transpose().cast<double>();
-      if (const auto near = surface.nearest(point.cast<float>(), 0.02F, none_hidden))
+      if (const auto near = surface.nearest(point.cast<float>(), 0.02F))
         distances.push_back(std::sqrt(near->squared));
     }
     REQUIRE(distances.size() > 500);

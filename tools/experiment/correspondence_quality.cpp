@@ -32,8 +32,7 @@ std::array<double, kColumns> parse_row(const std::string& line, const std::strin
 CorrespondenceJudge::CorrespondenceJudge(Cloud model, double radius)
     : model_(std::move(model)),
       radius_(radius),
-      index_(model_.points, static_cast<float>(2 * radius)),
-      none_hidden_(static_cast<std::size_t>(model_.points.rows()), 0) {}
+      index_(model_.points, static_cast<float>(2 * radius)) {}
 
 CorrespondenceQuality CorrespondenceJudge::judge(const std::filesystem::path& csv,
                                                  const Eigen::Isometry3d& T_scene_model) const {
@@ -51,8 +50,7 @@ CorrespondenceQuality CorrespondenceJudge::judge(const std::filesystem::path& cs
     const Eigen::Vector3d normal = T_model_scene.linear() * columns.col(1);
     ++quality.count;
     inliers += (scene - columns.col(2)).norm() <= radius_;
-    const auto near =
-        index_.nearest(scene.cast<float>(), static_cast<float>(2 * radius_), none_hidden_);
+    const auto near = index_.nearest(scene.cast<float>(), static_cast<float>(2 * radius_));
     if (!near) continue;
     const Eigen::Vector3d truth = model_.normals.row(near->index).transpose().cast<double>();
     if (truth.isZero()) continue;

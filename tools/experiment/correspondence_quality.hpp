@@ -29,7 +29,6 @@ class CorrespondenceJudge {
   Cloud model_;
   double radius_;
   geometry::NearestIndex index_;
-  std::vector<char> none_hidden_;
 };
 
 }  // namespace posevote

@@ -37,9 +37,10 @@ PointMatrix random_points(Eigen::Index count, float size, std::mt19937& random) 
 }
 
 void check_against_brute_force(const PointMatrix& points, float spread, std::mt19937& random) {
-  const geometry::NearestIndex near(points, kReach);
+  geometry::NearestIndex near(points, kReach);
   std::vector<char> hidden(static_cast<std::size_t>(points.rows()));
   for (char& one : hidden) one = static_cast<char>(random() % 4 == 0);
+  near.hide(hidden);
   PointMatrix normals = PointMatrix::Zero(points.rows(), 3);
   normals.col(2).setOnes();
   geometry::ScanSurface surface({points, normals, {}}, false, kReach);
@@ -50,7 +51,7 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
     const Eigen::Vector3f center(place(random), place(random), place(random));
     const float distance = (q % 3 == 0 ? 4 * kReach : kReach) * share(random);
     const auto expected = by_brute_force(points, center, distance, hidden);
-    const auto got = near.nearest(center, distance, hidden);
+    const auto got = near.nearest(center, distance);
     const auto left = surface.nearest_left(center, distance);
     REQUIRE(got.has_value() == expected.has_value());
     REQUIRE(left.has_value() == expected.has_value());
@@ -91,25 +92,23 @@ TEST_CASE("an outlier far away costs no time, sparse points no memory", "[prepar
   PointMatrix points = random_points(200000, 0.5F, random);
   points.row(7) << 1e30F, -1e10F, 0;
   const geometry::NearestIndex near(points, kReach);
-  const std::vector<char> hidden(200000, 0);
   // Each by brute force would take a minute.
-  for (Eigen::Index i = 0; i < 100000; ++i) REQUIRE(near.nearest(points.row(i), kReach, hidden));
+  for (Eigen::Index i = 0; i < 100000; ++i) REQUIRE(near.nearest(points.row(i), kReach));
   // 4 GB if each had a block of its own.
   points = random_points(2000000, 1000, random);
   const geometry::NearestIndex sparse(points, kReach);
-  const std::vector<char> none(2000000, 0);
-  for (std::uint32_t i = 0; i < 1000; ++i)
-    CHECK(sparse.nearest(points.row(i), kReach, none)->index == i);
+  for (std::uint32_t i = 0; i < 1000; ++i) CHECK(sparse.nearest(points.row(i), kReach)->index == i);
 }
 
 TEST_CASE("nothing is near nothing", "[prepare]") {
   const PointMatrix none(0, 3), one = PointMatrix::Zero(1, 3);
-  CHECK(!geometry::NearestIndex(none, kReach).nearest({0, 0, 0}, kReach, {}));
-  CHECK(!geometry::NearestIndex(one, 0).nearest({0, 0, 0}, kReach, {0}));
-  const geometry::NearestIndex near(one, kReach);
-  CHECK(near.nearest({0, 0, 0}, 0, {0}));
-  CHECK(!near.nearest({0, 0, 0}, kReach, {1}));
-  CHECK(!near.nearest({0, std::nanf(""), 0}, kReach, {0}));
-  CHECK(!near.nearest({1e30F, 0, 0}, kReach, {0}));
-  CHECK(near.nearest({1e10F, 0, 0}, 1e11F, {0}));
+  CHECK(!geometry::NearestIndex(none, kReach).nearest({0, 0, 0}, kReach));
+  CHECK(!geometry::NearestIndex(one, 0).nearest({0, 0, 0}, kReach));
+  geometry::NearestIndex near(one, kReach);
+  CHECK(near.nearest({0, 0, 0}, 0));
+  CHECK(!near.nearest({0, std::nanf(""), 0}, kReach));
+  CHECK(!near.nearest({1e30F, 0, 0}, kReach));
+  CHECK(near.nearest({1e10F, 0, 0}, 1e11F));
+  near.hide({1});
+  CHECK(!near.nearest({0, 0, 0}, kReach));
 }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "graph/parallel.hpp"
+
+namespace posevote::geometry {
+
+/// What make(begin, end) returns of the ranges that [0, count) falls into, a vector each, one behind
+/// the other in their order.
+template <class Make>
+auto joined_ranges(std::size_t count, const Make& make) {
+  constexpr std::size_t kGrain = 8192;
+  const std::size_t pieces = count / kGrain + 1;
+  std::vector<decltype(make(count, count))> parts(pieces);
+  graph::parallel_for(pieces, 1, [&](std::size_t p) {
+    parts[p] = make(p * count / pieces, (p + 1) * count / pieces);
+  });
+  auto all = std::move(parts.front());
+  std::size_t size = all.size();
+  for (std::size_t p = 1; p < pieces; ++p) size += parts[p].size();
+  all.reserve(size);
+  for (std::size_t p = 1; p < pieces; ++p)
+    all.insert(all.end(), std::make_move_iterator(parts[p].begin()),
+               std::make_move_iterator(parts[p].end()));
+  return all;
+}
+
+/// The numbers below `count` that have a property, in ascending order.
+template <class Property>
+std::vector<std::uint32_t> rows_that(std::size_t count, const Property& has) {
+  return joined_ranges(count, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> rows;
+    for (std::size_t i = begin; i < end; ++i)
+      if (has(static_cast<std::uint32_t>(i))) rows.push_back(static_cast<std::uint32_t>(i));
+    return rows;
+  });
+}
+
+}  // namespace posevote::geometry
