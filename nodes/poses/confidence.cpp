@@ -77,6 +77,12 @@ double log_odds_of(const ColorClues& clues, const ColorTerms& terms) {
 
 double probability_of(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
+double log_odds_of(double probability) {
+  constexpr double kLeastDoubt = 1e-4;  // no confidence is so exact that it tells apart less
+  const double p = std::clamp(probability, kLeastDoubt, 1 - kLeastDoubt);
+  return std::log(p / (1 - p));
+}
+
 Clues against(const Clues& clues, const ConfidenceTerms& terms) {
   Clues missing{};
   for (std::size_t i = 0; i < kClueCount; ++i)

@@ -42,6 +42,9 @@ double log_odds_of(const ColorClues& clues, const ColorTerms& terms);
 /// In [0, 1].
 double probability_of(double log_odds);
 
+/// Of a probability, by which no two are told apart that are 0.0001 from 0, or from 1, or nearer.
+double log_odds_of(double probability);
+
 /// What each clue takes from the log odds, beside what right detections usually have; negative where
 /// it speaks for the pose.
 Clues against(const Clues& clues, const ConfidenceTerms& terms);

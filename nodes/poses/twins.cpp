@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/twins.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "graph/parallel.hpp"
+#include "nodes/poses/confidence.hpp"
 #include "nodes/poses/schedule.hpp"
 #include "nodes/poses/score.hpp"
 
@@ -24,28 +25,33 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
   return twins;
 }
 
+/// By what both were judged by, and where they differ. What points say counts up to the lead that
+/// tells: they err alike, so more of it is no surer.
+double log_odds_over(const Sought& sought, const Candidate& origin, const Candidate& twin,
+                     double lead) {
+  const TwinTerms& terms = sought.terms.twins;
+  return log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
+         terms.lead_odds * std::clamp(lead, -terms.telling, terms.telling);
+}
+
 }  // namespace
 
 Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken) {
   Candidates twins = make_twins(sought, candidate);
   twins.erase(refine_best(sought, twins), twins.end());
-  const double telling = sought.terms.twins.telling;
   Candidate best = candidate;
-  using Standing = std::pair<double, double>;  // what tells, then the rank
-  Standing highest{0, candidate.rank};
+  double highest = 0;
   for (const Candidate& twin : twins) {
     const double by_color = color_lead(twin.colors, candidate.colors);
     const double by_shape = lead_over(sought, candidate, twin);
     // Beside colours, whose places are apart, points that err alike must not count each; and what
-    // colours tell leaves no need to ask the ranks.
-    const double lead =
-        by_color == 0 ? by_shape : by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
-    const double enough = by_color == 0 ? telling : 0;
-    if (lead < -enough) continue;
-    const Standing standing = lead > enough ? Standing{lead, 0} : Standing{0, twin.rank};
-    if (standing <= highest || !taken.is_clear(sought, twin.T_scene_model)) continue;
+    // colours tell leaves no need to ask the confidences.
+    const double lead = by_color == 0
+                            ? log_odds_over(sought, candidate, twin, by_shape)
+                            : by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
+    if (lead <= highest || !taken.is_clear(sought, twin.T_scene_model)) continue;
     best = twin;
-    highest = standing;
+    highest = lead;
   }
   return best;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A model that a motion carries nearly onto itself (a carton turned by half, a cup upside down)
 // looks alike in two poses, which get each other's votes. Where such twins differ decides between
-// them; where that says nothing, their ranks do.
+// them, together with their confidences, which also weigh what both have alike.
 #pragma once
 
 #include "nodes/poses/candidate.hpp"

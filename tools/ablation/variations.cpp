@@ -52,6 +52,7 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"full_still", "0"},
                                                  {"polish_still", "0"},
                                                  {"telling", "1e9"},  // nothing is
+                                                 {"lead_odds", "0"},
                                                  {"most_shifts", "0"},
                                                  {"least_facing_cosine", "0"},
                                                  {"least_normal_cosine", "-1"},

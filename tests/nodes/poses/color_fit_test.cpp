@@ -158,12 +158,12 @@ TEST_CASE("of twins that differ nowhere, colours choose", "[poses][color]") {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitX()).toRotationMatrix();
   setting.body.model.near_symmetries = {{{motion, {}, {}}}};
-  // Beside the right pose, of which the first is the twin, by no less rank.
+  // Beside the right pose, of which the first is the twin, no less probable.
   Candidate wrong = setting.body.candidate(kBody.T_scene_model * motion.inverse());
   const Sought sought = setting.body.sought();
   judge(sought, wrong, {{1000}});
   turn_by_color(sought, wrong);
-  wrong.rank = 2;
+  wrong.confidence = 1;
   const Candidate best = best_alike(sought, wrong, TakenPlaces(0));
   CHECK(best.T_scene_model.isApprox(kBody.T_scene_model, 1e-9));
   setting.body.model.cloud.colors.resize(0, 3);

@@ -60,14 +60,20 @@ TEST_CASE("the lead counts what differs, in standard deviations", "[poses]") {
   CHECK(poses::lead_over(setting.body.sought(), setting.wrong, setting.right) == 0);
 }
 
-TEST_CASE("of twins, the points where they differ decide, else the rank", "[poses]") {
+TEST_CASE("of twins, the points where they differ and the confidences decide", "[poses]") {
   Mistaken setting;
   CHECK_FALSE(setting.chooses_right());  // that it has a twin is not known
   setting.differ({}, {});
   CHECK(setting.chooses_right());
+  setting.wrong.confidence = 1;
+  CHECK_FALSE(setting.chooses_right());
+  setting.wrong.confidence = 0.5;
+  CHECK(setting.chooses_right());
+  poses::TwinTerms& terms = setting.body.params.terms.twins;
+  terms.lead_odds = 10;
   setting.differ({}, setting.for_wrong);
   CHECK_FALSE(setting.chooses_right());
-  setting.body.params.terms.twins.telling = 1000;  // no lead tells
+  terms.telling = 0;  // no lead tells
   CHECK(setting.chooses_right());
 }
 

@@ -136,7 +136,8 @@ TEST_CASE("poses that look nearly like a proposed one are tried, too", "[segment
   CHECK(found[0].density == 9);  // of the mode that it came from
 }
 
-TEST_CASE("of poses that look alike, the points where they differ decide", "[segment]") {
+TEST_CASE("of poses that look alike, confidences and points where they differ decide",
+          "[segment]") {
   const Cloud scan = scan_of({kLeft});
   const geometry::RangeView view(scan, kResolution);
   const geometry::ScanSurface surface(scan, view.usable(), 2 * kResolution);
@@ -153,15 +154,17 @@ TEST_CASE("of poses that look alike, the points where they differ decide", "[seg
     if (says(kLeft.T_scene_model) > 0) for_right.push_back(i);
   }
   REQUIRE(for_wrong.size() > 100);
-  const auto is_found = [&](const NearSymmetry& near_symmetry) {
+  const auto is_found = [&](const NearSymmetry& near_symmetry, const char* lead_odds = "1") {
     model->near_symmetries = {{near_symmetry}};
-    const auto found = segmented({model, {beside({1, wrong}, 0, 9)}}, scan, {{"refine", "false"}});
+    const auto found = segmented({model, {beside({1, wrong}, 0, 9)}}, scan,
+                                 {{"refine", "false"}, {"lead_odds", lead_odds}});
     return found.size() == 1 &&
            found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
   };
-  CHECK(is_found({turned, {}, {}}));  // by rank
+  CHECK(is_found({turned, {}, {}}));
   CHECK(is_found({turned, for_right, {}}));
-  CHECK_FALSE(is_found({turned, {}, for_wrong}));
+  CHECK(is_found({turned, {}, for_wrong}));  // its confidence is much higher
+  CHECK_FALSE(is_found({turned, {}, for_wrong}, "100"));
 }
 
 TEST_CASE("terms are parameters for experts", "[segment]") {
