@@ -126,17 +126,18 @@ struct Span {
   std::int64_t first, last;
 };
 
-/// The cubes that a ball meets along an axis, and a trifle more: only the distance decides who is in.
+/// The cubes that a ball meets along an axis.
 inline Span cubes_around(double in_edges, double reach) {
-  return {floor_of(std::max(in_edges - reach, -kFarthest)),
-          floor_of(std::min(in_edges + reach, kFarthest))};
+  return {place_of(in_edges - reach), place_of(in_edges + reach)};
 }
 inline Span blocks_of(const Span& cubes) { return {cubes.first >> kShift, cubes.last >> kShift}; }
 inline Span in_block(const Span& cubes, std::int64_t block) {
   return {std::max(cubes.first - kSide * block, std::int64_t{0}),
           std::min(cubes.last - kSide * block, kSide - 1)};
 }
-inline double count(const Span& span) { return static_cast<double>(span.last - span.first + 1); }
+inline double size_of(const Span& span) {
+  return static_cast<double>(span.last) - static_cast<double>(span.first) + 1;
+}
 
 }  // namespace
 
@@ -193,15 +194,16 @@ class NearestIndex::Search {
 std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
                                                float distance) const {
   if (index_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
+  // A trifle more: only the distance decides who is in.
   const double reach = 1.000001 * static_cast<double>(distance) * per_edge_;
   const Span x = cubes_around(per_edge_ * static_cast<double>(center.x()), reach);
   const Span y = cubes_around(per_edge_ * static_cast<double>(center.y()), reach);
   const Span z = cubes_around(per_edge_ * static_cast<double>(center.z()), reach);
   const Span blocks_x = blocks_of(x), blocks_y = blocks_of(y), blocks_z = blocks_of(z);
   Search search(*this, center, distance);
-  if (count(blocks_x) * count(blocks_y) * count(blocks_z) > static_cast<double>(blocks_) + 8) {
-    search.look(0,
-                static_cast<std::uint32_t>(index_.size()));  // fewer than places to look for them
+  if (size_of(blocks_x) * size_of(blocks_y) * size_of(blocks_z) >
+      static_cast<double>(blocks_) + 8) {
+    search.look(0, begin_.back());  // all: fewer than places to look for them
     return search.result();
   }
   for (std::int64_t i = blocks_x.first; i <= blocks_x.last; ++i)

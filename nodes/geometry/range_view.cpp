@@ -49,9 +49,9 @@ RangeView::RangeView(const Cloud& scan, float resolution, const ViewTerms& terms
   lay_out(image_points, resolution / median_range(image_points), terms.most_cells);
   const float half_width = static_cast<float>(terms.footprint) * resolution;
   // In bands, side by side; each cell takes the nearest of all.
-  constexpr std::size_t kBands = 8;
+  constexpr int kBands = 8;
   graph::parallel_for(kBands, 1, [&](std::size_t band) {
-    const auto row = [&](std::size_t b) { return static_cast<int>(b) * height_ / int{kBands}; };
+    const auto row = [&](std::size_t b) { return static_cast<int>(b) * height_ / kBands; };
     for (const Eigen::Vector3f& p : image_points)
       splat(p, half_width / p.z(), terms.most_half_cells, row(band), row(band + 1) - 1);
   });
