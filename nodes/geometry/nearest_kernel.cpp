@@ -20,7 +20,8 @@ NearestPoint nearest(const PointColumns& points, const GridRun* runs, std::size_
   const Indices u;
   const auto cx = hn::Set(d, center[0]), cy = hn::Set(d, center[1]), cz = hn::Set(d, center[2]);
   auto least = hn::Set(d, farthest);
-  auto index = hn::Set(u, 0xFFFFFFFFU);
+  const auto none = hn::Set(u, NearestPoint{}.index);
+  auto index = none;
   for (std::size_t r = 0; r < run_count; ++r)
     for (std::size_t i = runs[r].begin; i < runs[r].end; i += hn::Lanes(d)) {
       const auto dx = hn::Sub(hn::LoadU(d, points.x + i), cx);
@@ -35,7 +36,6 @@ NearestPoint nearest(const PointColumns& points, const GridRun* runs, std::size_
       least = hn::IfThenElse(hn::RebindMask(d, better), squared, least);
       index = hn::IfThenElse(better, here, index);
     }
-  const auto none = hn::Set(u, 0xFFFFFFFFU);
   const auto found = hn::Ne(index, none);
   if (hn::AllFalse(u, found)) return {};
   const auto minimum =

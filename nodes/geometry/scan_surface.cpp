@@ -30,8 +30,7 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
     points_.push_back({scan.points.row(i).transpose(), scan.normals.row(i).transpose()});
     gone_[points_.size() - 1] = static_cast<char>(!(points_.back().normal.squaredNorm() > 0.5F));
   }
-  near_.hide(gone_);
-  far_.hide(gone_);
+  take_out(gone_);
 }
 
 void ScanSurface::take_out(const std::vector<char>& explained) {
