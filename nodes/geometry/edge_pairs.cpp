@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "graph/parallel.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/near_surface.hpp"
 #include "nodes/geometry/outline.hpp"
 
 namespace posevote::geometry {
@@ -19,27 +19,6 @@ constexpr float kLookBeyond = 2.5F;  // an end, for what is there
 constexpr float kLeastDrop = 2;      // behind an end
 
 constexpr std::size_t kTried = 4;  // places, for each end that is wanted: few are at a rim
-
-/// A model, of which all sides are there. Beyond the edge of a face the nearest point is soon one of
-/// the face around the corner, where the scan, which seldom shows both, goes on for a spacing: any
-/// point of the face will do.
-class WholeSurface {
- public:
-  WholeSurface(const Cloud& model, float resolution)
-      : normals_(model.normals), grid_(model.points, resolution) {}
-
-  /// Whether it is near a place, to somebody who comes along a face with that normal.
-  bool goes_on(const OrientedPoint& at, float near) const {
-    const auto agree = static_cast<float>(SurfaceTerms{}.least_normal_cosine);
-    return grid_.any_within(at.point, near, [&](std::uint32_t i, float) {
-      return normals_.row(static_cast<Eigen::Index>(i)).dot(at.normal) >= agree;
-    });
-  }
-
- private:
-  const PointMatrix& normals_;
-  PointGrid grid_;
-};
 
 /// How far a face goes on from `from`, in steps; nothing where it does up to `most`.
 template <class GoesOn>
@@ -64,15 +43,24 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, 
     });
   const auto wanted = static_cast<std::size_t>(most);
   const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
-  const WholeSurface surface(model, resolution);
+  const PointGrid grid(model.points, resolution);
+  const auto agree = [](float cosine) {
+    return cosine >= static_cast<float>(SurfaceTerms{}.least_normal_cosine);
+  };
   std::vector<FaceEnd> all;
   for (std::size_t k = 0; k < ahead.size(); k += stride) all.push_back(ahead[k]);
   std::vector<std::optional<float>> lengths(all.size());
+  // All sides of a model are there. Beyond the edge of a face the nearest point is soon one of the
+  // face around the corner, where the scan, which seldom shows both, goes on for a spacing: any
+  // point of the face will do.
   graph::parallel_for(all.size(), 64, [&](std::size_t k) {
+    NearSurface surface(model, grid);
     const OrientedPoint from{all[k].place, model.normals.row(all[k].row).transpose()};
     lengths[k] =
         length_of(from, all[k].direction, kStep * resolution, kRim * resolution,
-                  [&](const OrientedPoint& at) { return surface.goes_on(at, resolution); });
+                  [&](const OrientedPoint& at) {
+                    return surface.is_near(at.point, at.normal, resolution, resolution, agree);
+                  });
   });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < lengths.size(); ++k) {

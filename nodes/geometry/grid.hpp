@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
@@ -39,34 +40,22 @@ class PointGrid {
   template <class Visit>
   void for_each_position_within(const Eigen::Vector3f& center, float radius,
                                 const Visit& visit) const {
-    if (!center.allFinite() || !(radius >= 0)) return;
-    const float squared_radius = radius * radius;
-    for_each_run(center, center, radius, [&](const GridRun& run) {
-      for (std::size_t i = run.begin; i < run.end; ++i) {
-        const float dx = x_[i] - center.x();
-        const float dy = y_[i] - center.y();
-        const float dz = z_[i] - center.z();
-        const float squared = dx * dx + dy * dy + dz * dz;
-        if (squared <= squared_radius) visit(i, squared);
-      }
+    visit_until(center, radius, [&](std::size_t position, float squared) {
+      visit(position, squared);
+      return false;
     });
   }
 
-  /// Whether test(index, squared distance) holds for any point within `radius` of `center`; asks no
-  /// further once it does.
+  /// The first of the points within `radius` of `center` for which test(index, squared distance)
+  /// holds, in the order of for_each_within; asks no further.
   template <class Test>
-  bool any_within(const Eigen::Vector3f& center, float radius, const Test& test) const {
-    if (!center.allFinite() || !(radius >= 0)) return false;
-    const float squared_radius = radius * radius;
-    bool found = false;
-    for_each_run(center, center, radius, [&](const GridRun& run) {
-      for (std::size_t i = run.begin; i < run.end && !found; ++i) {
-        const float dx = x_[i] - center.x();
-        const float dy = y_[i] - center.y();
-        const float dz = z_[i] - center.z();
-        const float squared = dx * dx + dy * dy + dz * dz;
-        found = squared <= squared_radius && test(index_[i], squared);
-      }
+  std::optional<std::uint32_t> find_within(const Eigen::Vector3f& center, float radius,
+                                           const Test& test) const {
+    std::optional<std::uint32_t> found;
+    visit_until(center, radius, [&](std::size_t position, float squared) {
+      if (!test(index_[position], squared)) return false;
+      found = index_[position];
+      return true;
     });
     return found;
   }
@@ -95,6 +84,23 @@ class PointGrid {
     std::uint64_t key = 0;
     GridRun rod;
   };
+
+  /// Calls is_enough(position, squared distance) for points within `radius`, until it holds.
+  template <class IsEnough>
+  void visit_until(const Eigen::Vector3f& center, float radius, const IsEnough& is_enough) const {
+    if (!center.allFinite() || !(radius >= 0)) return;
+    const float squared_radius = radius * radius;
+    bool enough = false;
+    for_each_run(center, center, radius, [&](const GridRun& run) {
+      for (std::size_t i = run.begin; i < run.end && !enough; ++i) {
+        const float dx = x_[i] - center.x();
+        const float dy = y_[i] - center.y();
+        const float dz = z_[i] - center.z();
+        const float squared = dx * dx + dy * dy + dz * dz;
+        enough = squared <= squared_radius && is_enough(i, squared);
+      }
+    });
+  }
 
   /// find_runs, one by one.
   template <class Visit>

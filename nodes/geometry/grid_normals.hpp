@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/oriented_columns.hpp"
 
@@ -17,11 +18,12 @@ class GridNormals {
       : grid_(grid) {
     const auto count = static_cast<Eigen::Index>(grid.size());
     normals_.setZero(count + static_cast<Eigen::Index>(kGridPadding), 3);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const std::uint32_t point = grid.indices()[static_cast<std::size_t>(i)];
-      normals_.row(i) = normals.row(point);
-      if (!is_usable(point)) normals_.row(i).setConstant(std::nanf(""));
-    }
+    graph::parallel_for(grid.size(), 4096, [&](std::size_t position) {
+      const auto row = static_cast<Eigen::Index>(position);
+      const std::uint32_t point = grid.indices()[position];
+      normals_.row(row) = normals.row(point);
+      if (!is_usable(point)) normals_.row(row).setConstant(std::nanf(""));
+    });
   }
 
   OrientedColumns columns() const {

@@ -2,6 +2,7 @@
 #include "nodes/pairs/pair_votes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -82,34 +83,45 @@ void PairVotes::for_each_pair(const PairTable& table, const Visit& visit) {
 
 /// The best turn of one point: its count and its neighbours', whose balance tells where between them
 /// it lies.
-PairPeak PairVotes::peak_of(std::uint16_t point) const {
+PairPeak PairVotes::peak_of(std::size_t point) const {
   const std::uint16_t* counts = &counts_[point * kTurns];
-  PairPeak best;
+  std::array<std::uint32_t, kTurns + 2> ring;  // whose ends meet
+  std::copy_n(counts, kTurns, ring.begin() + 1);
+  ring.front() = counts[kTurns - 1];
+  ring.back() = counts[0];
+  std::uint32_t most = 0, at = 0;
   for (std::uint32_t k = 0; k < kTurns; ++k) {
-    const std::uint32_t before = counts[(k + kTurns - 1) % kTurns], here = counts[k],
-                        after = counts[(k + 1) % kTurns], sum = before + here + after;
-    if (sum <= best.pairs || here < before || here < after) continue;
-    const float lean =
-        (static_cast<float>(after) - static_cast<float>(before)) / static_cast<float>(sum);
-    best = {
-        point,
-        (static_cast<float>(k) + 0.5F + lean) * static_cast<float>(2 * std::numbers::pi / kTurns),
-        sum};
+    const std::uint32_t sum = ring[k] + ring[k + 1] + ring[k + 2];
+    if (sum <= most || ring[k + 1] < ring[k] || ring[k + 1] < ring[k + 2]) continue;
+    most = sum;
+    at = k;
   }
-  return best;
+  if (most == 0) return {};
+  const float lean =
+      (static_cast<float>(ring[at + 2]) - static_cast<float>(ring[at])) / static_cast<float>(most);
+  return {
+      static_cast<std::uint16_t>(point),
+      (static_cast<float>(at) + 0.5F + lean) * static_cast<float>(2 * std::numbers::pi / kTurns),
+      most};
 }
 
 /// Of every point that may be among the best.
-std::vector<PairPeak> PairVotes::peaks_of_turns(std::size_t points, double ratio) const {
+std::vector<PairPeak> PairVotes::peaks_of_turns(std::size_t points, double ratio) {
   std::vector<PairPeak> peaks;
-  std::uint32_t best = 0;
+  if (points == 0) return peaks;
+  most_.resize(points);
   for (std::size_t point = 0; point < points; ++point) {
-    const auto counts = std::span(counts_).subspan(point * kTurns, kTurns);
-    const std::uint32_t most = *std::max_element(counts.begin(), counts.end());
-    if (most == 0 || 3 * most < ratio * best) continue;  // three turns make a peak
-    peaks.push_back(peak_of(static_cast<std::uint16_t>(point)));
-    best = std::max(best, peaks.back().pairs);
+    const std::uint16_t* counts = &counts_[point * kTurns];
+    std::uint16_t most = 0;
+    for (std::uint32_t k = 0; k < kTurns; ++k) most = std::max(most, counts[k]);
+    most_[point] = most;
   }
+  // The best first, so that few of the others need a look.
+  const auto first = std::max_element(most_.begin(), most_.end()) - most_.begin();
+  const std::uint32_t best = peak_of(static_cast<std::size_t>(first)).pairs;
+  for (std::size_t point = 0; point < points; ++point)
+    if (most_[point] != 0 && 3 * most_[point] >= ratio * best)  // three turns make a peak
+      peaks.push_back(peak_of(point));
   return peaks;
 }
 

@@ -77,9 +77,9 @@ class PairVotes {
   /// about it at which it has it, and, where it knows the point's own colour, the color_step.
   template <class Visit>
   void for_each_pair(const PairTable& table, const Visit& visit);
-  std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio) const;
+  std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio);
   std::vector<PairPeak> peaks_of_points(double ratio) const;
-  PairPeak peak_of(std::uint16_t point) const;
+  PairPeak peak_of(std::size_t point) const;
 
   /// Of the scan's points about the point: what of a pair is the same for all tables.
   struct Other {
@@ -99,6 +99,7 @@ class PairVotes {
   float color_from_ = 0;                ///< how far away the point's own colour was seen [m]
   std::vector<Pair> pairs_;             ///< of the table, about the point
   std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open
+  std::vector<std::uint16_t> most_;     ///< per point: of its turns
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins
 };

@@ -2,9 +2,13 @@
 #include "nodes/poses/explain_points.hpp"
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/near_surface.hpp"
 
 namespace posevote::poses {
 namespace {
+
+/// An object's points lie side by side in a scan: few enough for many threads to share them.
+constexpr std::size_t kGrain = 256;
 
 /// Most scan points lie far from the object and need no search.
 struct Ball {
@@ -28,20 +32,18 @@ std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& 
   const Ball ball = enclosing_ball(model.points, distance);
   const Eigen::Vector3f center = T_scene_model.cast<float>() * ball.center;
   std::vector<char> explained(static_cast<std::size_t>(points.rows()), 0);
-  graph::parallel_for(explained.size(), 4096, [&](std::size_t i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (!((points.row(row).transpose() - center).squaredNorm() <= ball.squared_radius)) return;
-    const Eigen::Vector3f point = T_model_scene * Eigen::Vector3f(points.row(row).transpose());
-    const Eigen::Vector3f normal =
-        T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
-    // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
-    // one.
-    for (const float reach : {0.5F * distance, distance}) {  // most that have one have it close by
-      const bool near = model_grid.any_within(point, reach, [&](std::uint32_t neighbour, float) {
-        return model.normals.row(static_cast<Eigen::Index>(neighbour)).dot(normal) > 0;
-      });
-      explained[i] = static_cast<char>(near);
-      if (near) return;
+  graph::parallel_ranges(explained.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    geometry::NearSurface surface(model, model_grid);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (!((points.row(row).transpose() - center).squaredNorm() <= ball.squared_radius)) continue;
+      const Eigen::Vector3f point = T_model_scene * Eigen::Vector3f(points.row(row).transpose());
+      const Eigen::Vector3f normal =
+          T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
+      // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
+      // one.
+      explained[i] = static_cast<char>(surface.is_near(point, normal, distance, 0.5F * distance,
+                                                       [](float cosine) { return cosine > 0; }));
     }
   });
   return explained;

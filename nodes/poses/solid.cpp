@@ -63,9 +63,10 @@ Eigen::Index Solid::nearest(const Eigen::Vector3f& point, float from) const {
 
 bool Solid::is_sheet(Eigen::Index row) const {
   const Eigen::Vector3f point = model_.points.row(row).transpose();
-  return grid_.any_within(point, depth_, [&](std::uint32_t i, float) {
+  const auto looks_back = [&](std::uint32_t i, float) {
     return model_.normals.row(row).dot(model_.normals.row(static_cast<Eigen::Index>(i))) < -kBack;
-  });
+  };
+  return grid_.find_within(point, depth_, looks_back).has_value();
 }
 
 }  // namespace posevote::poses

@@ -64,16 +64,17 @@ TEST_CASE("PointGrid asks of each neighbour until one will do", "[prepare]") {
     const std::vector<std::uint32_t> near = within(grid, points.row(7), radius);
     for (std::uint32_t wanted = 0; wanted < 500; ++wanted) {
       std::size_t asked = 0;
-      const bool found =
-          grid.any_within(points.row(7), radius, [&](std::uint32_t i, float squared) {
+      const auto found =
+          grid.find_within(points.row(7), radius, [&](std::uint32_t i, float squared) {
             CHECK(squared <= radius * radius);
             return ++asked, i == wanted;
           });
-      CHECK(found == (std::find(near.begin(), near.end(), wanted) != near.end()));
+      CHECK(found.value_or(wanted) == wanted);
+      CHECK(found.has_value() == (std::find(near.begin(), near.end(), wanted) != near.end()));
       CHECK((found || asked == near.size()));
     }
   }
-  CHECK_FALSE(grid.any_within({kNan, 0, 0}, 1, [](std::uint32_t, float) { return true; }));
+  CHECK_FALSE(grid.find_within({kNan, 0, 0}, 1, [](std::uint32_t, float) { return true; }));
 }
 
 TEST_CASE("PointGrid includes a neighbour at exactly the radius", "[prepare]") {
