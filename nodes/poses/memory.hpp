@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -76,12 +75,27 @@ class Answers {
   std::unordered_map<Question, Known, QuestionHash> known_;
 };
 
-/// Of one object, of which one pose at a time is polished.
+/// What is made by whoever asks for it first.
+template <class Value>
+class Once {
+ public:
+  template <class Make>
+  const Value& get(const Make& make) {
+    std::call_once(made_, [&] { value_ = make(); });
+    return value_;
+  }
+
+ private:
+  std::once_flag made_;
+  Value value_;
+};
+
+/// Of one object.
 struct Memory {
   Answers<Fit> fits;
   Answers<Eigen::Isometry3d> refined;
   Answers<std::size_t> explained;
-  std::optional<std::vector<geometry::FaceEnd>> face_ends;  ///< of the model, once asked for
+  Once<std::vector<geometry::FaceEnd>> face_ends, few_face_ends;  ///< of the model
 };
 
 }  // namespace posevote::poses

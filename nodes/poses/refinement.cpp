@@ -2,6 +2,7 @@
 #include "nodes/poses/refinement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -29,25 +30,28 @@ void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
     };
     pass(start);
     end.value = geometry::icp(sought.model.cloud, sought.scan.surface, start, params, pass, more);
-    end.radius = sought.reach +
-                 1.001 * static_cast<double>(std::max(params.start_distance, params.end_distance));
+    const auto partners = static_cast<double>(std::max(params.start_distance, params.end_distance));
+    const double ends =
+        more ? sought.terms.edges.reach * static_cast<double>(sought.scan.resolution) : 0;
+    end.radius = sought.reach + 1.001 * std::max(partners, ends);
     return end;
   });
 }
 
-/// Found once, and only where ICP has to run.
-const std::vector<geometry::FaceEnd>& face_ends(const Sought& sought) {
-  auto& known = sought.memory->face_ends;
-  if (!known)
-    known = geometry::find_face_ends(sought.model.cloud, sought.model.outline,
-                                     sought.scan.resolution, sought.terms.edges.ends);
-  return *known;
-}
+using FaceEnds = std::vector<geometry::FaceEnd>;
 
-geometry::MorePairs ends_of(const Sought& sought) {
-  return [&sought](const Eigen::Isometry3d& pose, double variance) {
-    return geometry::FaceEnds(sought.model.cloud, face_ends(sought), sought.scan.surface,
-                              sought.scan.view, sought.scan.resolution, sought.terms.edges)
+/// Found once, and only where ICP has to run: for each of its `points` on planes as many ends as in
+/// the last ICP.
+geometry::MorePairs ends_of(const Sought& sought, Once<FaceEnds>& known, int points) {
+  const double share = std::min(1.0, double(points) / sought.terms.refinement.polish_points);
+  const auto most = static_cast<int>(std::ceil(share * sought.terms.edges.ends));
+  return [&sought, &known, most](const Eigen::Isometry3d& pose, double variance) {
+    const Model& model = sought.model;
+    const float resolution = sought.scan.resolution;
+    const FaceEnds& ends = known.get(
+        [&] { return geometry::find_face_ends(model.cloud, model.outline, resolution, most); });
+    return geometry::FaceEnds(model.cloud, ends, sought.scan.surface, sought.scan.view, resolution,
+                              sought.terms.edges)
         .pairs(pose, variance);
   };
 }
@@ -124,7 +128,9 @@ void refine(const Sought& sought, Candidate& candidate) {
     return steps_from(sought, distance, terms.full_points, terms.full_still, false);
   };
   const bool is_new = !std::exchange(candidate.is_refined, true);
-  if (is_new) run_icp(sought, candidate, kFull, steps(sought.params.icp_distance));
+  if (is_new)
+    run_icp(sought, candidate, kFull, steps(sought.params.icp_distance),
+            ends_of(sought, sought.memory->few_face_ends, terms.full_points));
   judge_refined(sought, candidate, look);
   if (!is_new) return;
   try_contour(sought, candidate, kFullByContour, steps(sought.params.tolerance), contour_of(sought),
@@ -135,9 +141,10 @@ void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   const geometry::IcpParams steps =
       steps_from(sought, sought.params.tolerance, terms.polish_points, terms.polish_still, true);
-  run_icp(sought, candidate, kPolish, steps, ends_of(sought));
+  const geometry::MorePairs ends = ends_of(sought, sought.memory->face_ends, terms.polish_points);
+  run_icp(sought, candidate, kPolish, steps, ends);
   judge_refined(sought, candidate, kAllPoints);
-  try_contour(sought, candidate, kPolishByContour, steps, both(ends_of(sought), contour_of(sought)),
+  try_contour(sought, candidate, kPolishByContour, steps, both(ends, contour_of(sought)),
               kAllPoints);
 }
 

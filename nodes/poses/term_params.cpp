@@ -229,8 +229,8 @@ void add_edges(Node& node) {
   using G = geometry::EdgeTerms;
   const Register<G> term{node, &Terms::edges};
   term("edge_ends", &G::ends, "ends",
-       "Of the model's faces that hold the last ICP where planes do not, at most. 0: none; a flat "
-       "face then stays where its votes saw it. Time grows with it.",
+       "Of the model's faces that hold the last ICP where planes do not, at most; fewer do before. "
+       "0: none; a flat face then stays where its votes saw it. Time grows with it.",
        in_range(0, 100000));
   term("edge_reach", &G::reach, "x resolution",
        "How far from the model's end the scan's may be: what votes and ICP leave, which along a "

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "nodes/geometry/outline.hpp"
+#include "tests/nodes/geometry/flat_carton.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
 using namespace posevote;
@@ -57,4 +59,27 @@ TEST_CASE("without ICP nothing moves", "[poses]") {
   poses::polish(body.sought(), one);
   CHECK(one.T_scene_model.matrix() == beside(0.004).matrix());
   CHECK(one.quality > 0);
+}
+
+TEST_CASE("the ends of a flat face hold a finalist before it is judged", "[poses]") {
+  const FlatCarton carton;
+  Model model;
+  model.cloud = carton.model;
+  model.diagonal = 0.145F;
+  model.resolution = kStep;
+  model.outline = geometry::outline_of(model.cloud, 9 * kStep, 4 * kStep);
+  const FeatureSet features;
+  const poses::ScanState scan(carton.scan, features, kStep);
+  const auto off_by = [&](int ends) {
+    poses::SegmentParams params;
+    params.terms.edges.ends = ends;
+    const poses::Sought sought{model,        scan, poses::instance_params(params, model, kStep),
+                               params.terms, 0,    {}};
+    poses::Candidate one;
+    one.T_scene_model = carton.truth * Eigen::Translation3d(0.006, -0.004, 0.001);
+    poses::refine(sought, one);
+    return (one.T_scene_model.translation() - carton.truth.translation()).norm();
+  };
+  CHECK(off_by(0) > 0.004);
+  CHECK(off_by(1000) < 0.001);
 }
