@@ -38,17 +38,18 @@ void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
   });
 }
 
-using FaceEnds = std::vector<geometry::FaceEnd>;
+using Ends = std::vector<geometry::FaceEnd>;
 
 /// Found once, and only where ICP has to run: for each of its `points` on planes as many ends as in
 /// the last ICP.
-geometry::MorePairs ends_of(const Sought& sought, Once<FaceEnds>& known, int points) {
-  const double share = std::min(1.0, double(points) / sought.terms.refinement.polish_points);
+geometry::MorePairs ends_of(const Sought& sought, Once<Ends>& known, int points) {
+  const double share =
+      std::min(1.0, static_cast<double>(points) / sought.terms.refinement.polish_points);
   const auto most = static_cast<int>(std::ceil(share * sought.terms.edges.ends));
   return [&sought, &known, most](const Eigen::Isometry3d& pose, double variance) {
     const Model& model = sought.model;
     const float resolution = sought.scan.resolution;
-    const FaceEnds& ends = known.get(
+    const Ends& ends = known.get(
         [&] { return geometry::find_face_ends(model.cloud, model.outline, resolution, most); });
     return geometry::FaceEnds(model.cloud, ends, sought.scan.surface, sought.scan.view, resolution,
                               sought.terms.edges)

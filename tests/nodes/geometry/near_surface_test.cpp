@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/geometry/near_surface.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace posevote;
+
+namespace {
+
+/// Points strewn in a cube of one metre, with normals.
+Cloud strewn(Eigen::Index count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> anywhere(-1, 1);
+  Cloud cloud;
+  cloud.points.resize(count, 3);
+  cloud.normals.resize(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    cloud.points.row(i) << anywhere(random), anywhere(random), anywhere(random);
+    cloud.points.row(i) /= 2;
+    cloud.normals.row(i) << anywhere(random), anywhere(random), anywhere(random);
+    cloud.normals.row(i).normalize();
+  }
+  return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("whether a surface is near does not hang on where it was asked for before", "[segment]") {
+  const Cloud cloud = strewn(500), ends = strewn(200);
+  const geometry::PointGrid grid(cloud.points, 0.1F);
+  const float radius = GENERATE(0.03F, 0.12F);
+  const float probably = GENERATE(0.5F, 1.0F) * radius;
+  const auto agrees = [](float cosine) { return cosine > 0.3F; };
+  geometry::NearSurface asked(cloud, grid);
+  int near = 0;
+  constexpr Eigen::Index kSteps = 10;  // from one end to the next
+  for (Eigen::Index k = 0; k < kSteps * (ends.points.rows() - 1); ++k) {
+    const float share = static_cast<float>(k % kSteps) / kSteps;
+    const auto between = [&](const PointMatrix& rows) -> Eigen::Vector3f {
+      return (1 - share) * rows.row(k / kSteps) + share * rows.row(k / kSteps + 1);
+    };
+    const Eigen::Vector3f place = between(ends.points), normal = between(ends.normals);
+    bool expected = false;
+    for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
+      expected |= (cloud.points.row(i).transpose() - place).norm() <= radius &&
+                  agrees(cloud.normals.row(i).dot(normal));
+    REQUIRE(asked.is_near(place, normal, radius, probably, agrees) == expected);
+    near += expected ? 1 : 0;
+  }
+  CHECK(near > 20);
+  CHECK(near < 1980);
+}
