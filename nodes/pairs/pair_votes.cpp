@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <numbers>
-#include <span>
 
 #include "nodes/color/srgb.hpp"
 #include "nodes/pairs/color_step.hpp"

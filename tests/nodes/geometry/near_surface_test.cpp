@@ -2,25 +2,18 @@
 #include "nodes/geometry/near_surface.hpp"
 
 #include <catch2/catch.hpp>
-#include <random>
+
+#include "tests/support/shapes.hpp"
 
 using namespace posevote;
 
 namespace {
 
-/// Points strewn in a cube of one metre, with normals.
+/// Points in a ball of half a metre, with normals that have nothing to do with their places.
 Cloud strewn(Eigen::Index count) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> anywhere(-1, 1);
   Cloud cloud;
-  cloud.points.resize(count, 3);
-  cloud.normals.resize(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    cloud.points.row(i) << anywhere(random), anywhere(random), anywhere(random);
-    cloud.points.row(i) /= 2;
-    cloud.normals.row(i) << anywhere(random), anywhere(random), anywhere(random);
-    cloud.normals.row(i).normalize();
-  }
+  cloud.points = test::shaken(PointMatrix::Zero(count, 3), 0.5F);
+  cloud.normals = cloud.points.colwise().reverse().rowwise().normalized();
   return cloud;
 }
 
