@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nodes/geometry/rows_that.hpp"
+
 namespace posevote::density {
 
 Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
@@ -16,14 +18,19 @@ Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote) {
 
 std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density) {
   const std::size_t per_correspondence = votes.votes_per_correspondence;
-  std::vector<std::uint32_t> best;
-  if (per_correspondence == 0) return best;
-  for (std::size_t first = 0; first < votes.circle_votes(); first += per_correspondence) {
-    const auto begin = density.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto highest =
-        std::max_element(begin, begin + static_cast<std::ptrdiff_t>(per_correspondence));
-    if (*highest > 0) best.push_back(static_cast<std::uint32_t>(highest - density.begin()));
-  }
+  if (per_correspondence == 0) return {};
+  const std::size_t correspondences = votes.circle_votes() / per_correspondence;
+  std::vector<std::uint32_t> best =
+      geometry::joined_ranges(correspondences, [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> found;
+        for (std::size_t c = first; c < last; ++c) {
+          const auto begin = density.begin() + static_cast<std::ptrdiff_t>(c * per_correspondence);
+          const auto highest =
+              std::max_element(begin, begin + static_cast<std::ptrdiff_t>(per_correspondence));
+          if (*highest > 0) found.push_back(static_cast<std::uint32_t>(highest - density.begin()));
+        }
+        return found;
+      });
   for (std::size_t v = votes.circle_votes(); v < density.size(); ++v)
     if (density[v] > 0) best.push_back(static_cast<std::uint32_t>(v));
   std::stable_sort(best.begin(), best.end(), [&density](std::uint32_t a, std::uint32_t b) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "graph/parallel.hpp"
 #include "nodes/density/density_sums.hpp"
 #include "nodes/density/sorted_votes.hpp"
 
@@ -48,7 +49,8 @@ std::vector<double> PoseIndex::densities() const {
   const SortedVotes& sorted = data_->sorted;
   const std::vector<std::uint64_t> sums = density_sums(sorted);
   std::vector<double> density(data_->vote_count, 0);
-  for (std::size_t i = 0; i < sums.size(); ++i) density[sorted.numbers[i]] = density_of(sums[i]);
+  graph::parallel_for(sums.size(), 16384,
+                      [&](std::size_t i) { density[sorted.numbers[i]] = density_of(sums[i]); });
   return density;
 }
 
@@ -57,19 +59,23 @@ void PoseIndex::subtract(const std::vector<std::uint32_t>& removed, const std::v
   if (alive.size() != data_->vote_count || density.size() != data_->vote_count)
     throw std::invalid_argument("subtraction from " + std::to_string(density.size()) +
                                 " densities, expected " + std::to_string(data_->vote_count));
-  const SortedVotes queries = select_votes(data_->sorted, alive);
-  for (std::size_t v = 0; v < density.size(); ++v)
-    if (!alive[v]) density[v] = 0;
+  const SortedVotes& sorted = data_->sorted;
+  for (const std::uint32_t v : removed) density.at(v) = 0;
+  const auto left = static_cast<std::size_t>(
+      std::ranges::count_if(alive, [](char is_alive) { return is_alive != 0; }));
   // The cost is that of queries times others: sum what is fewer, what went or what stayed.
-  if (removed.size() > queries.size()) {
-    const std::vector<std::uint64_t> sums = density_sums(queries);
-    for (std::size_t i = 0; i < sums.size(); ++i) density[queries.numbers[i]] = density_of(sums[i]);
+  if (removed.size() > left) {
+    const SortedVotes stayed = select_votes(sorted, positions_that(sorted, alive));
+    const std::vector<std::uint64_t> sums = density_sums(stayed);
+    for (std::size_t i = 0; i < sums.size(); ++i) density[stayed.numbers[i]] = density_of(sums[i]);
     return;
   }
-  std::vector<char> gone(data_->vote_count, 0);
-  for (const std::uint32_t v : removed) gone.at(v) = 1;
-  const std::vector<std::uint64_t> sums = density_sums(queries, select_votes(data_->sorted, gone));
-  for (std::size_t i = 0; i < sums.size(); ++i) density[queries.numbers[i]] -= density_of(sums[i]);
+  std::vector<char> is_gone(data_->vote_count, 0);
+  for (const std::uint32_t v : removed) is_gone[v] = 1;
+  const SortedVotes gone = select_votes(sorted, positions_that(sorted, is_gone));
+  const SortedVotes near = select_votes(sorted, positions_near(sorted, gone, alive));
+  const std::vector<std::uint64_t> sums = density_sums(near, gone);
+  for (std::size_t i = 0; i < sums.size(); ++i) density[near.numbers[i]] -= density_of(sums[i]);
 }
 
 std::vector<WeightedVote> PoseIndex::neighbours(const Eigen::Vector3f& center,

@@ -41,7 +41,7 @@ class PoseIndex {
   /// Takes the votes `removed` out of the densities of all others: afterwards `density[v]`, for
   /// every v with alive[v], equals what densities() would give if the removed votes had never been
   /// cast. `alive` must already be false for the removed votes and those of earlier calls;
-  /// densities of votes that are not alive are set to 0.
+  /// densities of the removed are set to 0.
   void subtract(const std::vector<std::uint32_t>& removed, const std::vector<char>& alive,
                 std::vector<double>& density) const;
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/density/sorted_votes.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "graph/parallel.hpp"
@@ -34,20 +36,21 @@ constexpr auto kAxes = {&TranslationCell::x, &TranslationCell::y, &TranslationCe
 /// The cells that usable votes, at least one, lie in.
 CellRange range_of(const VoteSet& votes, const std::vector<std::uint32_t>& usable,
                    Bandwidth bandwidth) {
-  VotePoint low = vote_point(votes, usable.front()), high = low;
-  for (const std::uint32_t v : usable)
-    for (const auto& [axis, column] : {std::pair{&VotePoint::tx, &votes.tx},
-                                       {&VotePoint::ty, &votes.ty},
-                                       {&VotePoint::tz, &votes.tz}}) {
-      low.*axis = std::min(low.*axis, (*column)[v]);
-      high.*axis = std::max(high.*axis, (*column)[v]);
-    }
-  return {translation_cell(low, bandwidth), translation_cell(high, bandwidth)};
-}
-
-void open_cell(SortedVotes& sorted, const TranslationCell& cell, std::size_t first) {
-  sorted.cells.push_back(cell);
-  sorted.cell_begin.push_back(static_cast<std::uint32_t>(first));
+  const auto parts =
+      geometry::joined_ranges(usable.size(), [&](std::size_t begin, std::size_t end) {
+        Eigen::AlignedBox3f box;
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t v = usable[i];
+          box.extend(Eigen::Vector3f(votes.tx[v], votes.ty[v], votes.tz[v]));
+        }
+        return std::vector{box};
+      });
+  Eigen::AlignedBox3f box;
+  for (const Eigen::AlignedBox3f& part : parts) box.extend(part);
+  const auto cell_of = [bandwidth](const Eigen::Vector3f& place) {
+    return translation_cell({place.x(), place.y(), place.z(), 1, 0, 0, 0}, bandwidth);
+  };
+  return {cell_of(box.min()), cell_of(box.max())};
 }
 
 /// Brings the numbers of `sorted` into the order of their cells, those of one cell in that of their
@@ -70,11 +73,20 @@ void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
   geometry::radix_sort(
       members, [&codes](const Member<Number>& one) { return rotation_order(codes[one.vote]); });
   geometry::radix_sort(members, [](const Member<Number>& one) { return one.cell; });
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    sorted.numbers[i] = members[i].vote;
-    if (i == 0 || members[i].cell != members[i - 1].cell)
-      open_cell(sorted, cell_of(members[i].vote), i);
-  }
+  sorted.cell_begin =
+      geometry::joined_ranges(members.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> first;
+        for (std::size_t i = begin; i < end; ++i) {
+          sorted.numbers[i] = members[i].vote;
+          if (i == 0 || members[i].cell != members[i - 1].cell)
+            first.push_back(static_cast<std::uint32_t>(i));
+        }
+        return first;
+      });
+  sorted.cells.resize(sorted.cell_begin.size());
+  graph::parallel_for(sorted.cells.size(), 4096, [&](std::size_t c) {
+    sorted.cells[c] = cell_of(members[sorted.cell_begin[c]].vote);
+  });
 }
 
 void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
@@ -163,21 +175,44 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   return sorted;
 }
 
-SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep) {
+SortedVotes select_votes(const SortedVotes& all, const std::vector<std::uint32_t>& positions) {
   SortedVotes selected;
   selected.bandwidth = all.bandwidth;
-  const std::vector<std::uint32_t> kept = geometry::rows_that(
-      all.numbers.size(), [&](std::uint32_t i) { return keep[all.numbers[i]] != 0; });
-  for (std::size_t c = 0, first = 0; c < all.cells.size(); ++c) {
+  for (std::size_t c = 0, first = 0; c < all.cells.size() && first < positions.size(); ++c) {
     const std::size_t begin = first;
-    while (first < kept.size() && kept[first] < all.cell_begin[c + 1]) ++first;
-    if (first > begin) open_cell(selected, all.cells[c], begin);
+    while (first < positions.size() && positions[first] < all.cell_begin[c + 1]) ++first;
+    if (first == begin) continue;
+    selected.cells.push_back(all.cells[c]);
+    selected.cell_begin.push_back(static_cast<std::uint32_t>(begin));
   }
-  selected.cell_begin.push_back(static_cast<std::uint32_t>(kept.size()));
-  take(columns_of(all.votes.columns()), kept, selected.votes);
-  selected.numbers.reserve(kept.size());
-  for (const std::uint32_t i : kept) selected.numbers.push_back(all.numbers[i]);
+  selected.cell_begin.push_back(static_cast<std::uint32_t>(positions.size()));
+  take(columns_of(all.votes.columns()), positions, selected.votes);
+  selected.numbers.resize(positions.size());
+  graph::parallel_for(positions.size(), 16384,
+                      [&](std::size_t i) { selected.numbers[i] = all.numbers[positions[i]]; });
   return selected;
+}
+
+std::vector<std::uint32_t> positions_that(const SortedVotes& votes, const std::vector<char>& has) {
+  return geometry::rows_that(votes.size(),
+                             [&](std::uint32_t i) { return has[votes.numbers[i]] != 0; });
+}
+
+std::vector<std::uint32_t> positions_near(const SortedVotes& votes, const SortedVotes& others,
+                                          const std::vector<char>& has) {
+  std::vector<IndexRange> ranges;
+  CellSearch search(votes);
+  for (const TranslationCell& cell : others.cells)
+    std::ranges::copy(search.around({cell, cell.z}), std::back_inserter(ranges));
+  std::ranges::sort(ranges, {}, &IndexRange::begin);
+  std::vector<std::uint32_t> positions;
+  std::uint32_t done = 0;
+  for (const IndexRange& range : ranges) {
+    for (std::uint32_t i = std::max(done, range.begin); i < range.end; ++i)
+      if (has[votes.numbers[i]] != 0) positions.push_back(i);
+    done = std::max(done, range.end);
+  }
+  return positions;
 }
 
 const std::vector<IndexRange>& CellSearch::around(const CellRow& cells, bool not_lower) & {

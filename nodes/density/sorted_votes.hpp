@@ -50,8 +50,15 @@ VotePoint vote_point(const VoteSet& votes, std::size_t v);
 /// Sorts the usable votes of a set (see is_usable); the others are left out.
 SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth);
 
-/// The votes whose number n has keep[n] != 0, in the same order.
-SortedVotes select_votes(const SortedVotes& all, const std::vector<char>& keep);
+/// The votes at these positions, ascending.
+SortedVotes select_votes(const SortedVotes& all, const std::vector<std::uint32_t>& positions);
+
+/// The positions of votes whose number n has has[n] != 0.
+std::vector<std::uint32_t> positions_that(const SortedVotes& votes, const std::vector<char>& has);
+
+/// Of those, the ones in cells in which `others` has any, or that are beside such.
+std::vector<std::uint32_t> positions_near(const SortedVotes& votes, const SortedVotes& others,
+                                          const std::vector<char>& has);
 
 /// Finds the votes of a row of cells and of the cells around it. Fast when asked for rows in
 /// ascending order, for then each row around is found beside its predecessor.

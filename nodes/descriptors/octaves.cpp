@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "graph/parallel.hpp"
+
 namespace posevote::descriptors {
 namespace {
 
@@ -39,9 +41,17 @@ FeatureSet stack_octaves(const std::vector<const FeatureSet*>& features,
   for (std::size_t k = 0; k < features.size(); ++k) {
     const Eigen::Index rows = features[k]->points.rows();
     if (rows == 0) continue;
-    all.points.middleRows(begin, rows) = features[k]->points;
-    all.normals.middleRows(begin, rows) = features[k]->normals;
-    all.descriptors.middleRows(begin, rows) = features[k]->descriptors;
+    graph::parallel_ranges(static_cast<std::size_t>(rows), 1024,
+                           [&](std::size_t first, std::size_t last) {
+                             const auto from = static_cast<Eigen::Index>(first),
+                                        count = static_cast<Eigen::Index>(last - first);
+                             const auto copy = [&](const auto& one, auto& to) {
+                               to.middleRows(begin + from, count) = one.middleRows(from, count);
+                             };
+                             copy(features[k]->points, all.points);
+                             copy(features[k]->normals, all.normals);
+                             copy(features[k]->descriptors, all.descriptors);
+                           });
     all.octaves.push_back({scales[k].resolution, static_cast<std::uint32_t>(begin),
                            static_cast<std::uint32_t>(begin + rows)});
     begin += rows;

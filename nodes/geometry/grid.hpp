@@ -82,7 +82,7 @@ class PointGrid {
  private:
   struct Slot {
     std::uint64_t key = 0;
-    GridRun rod;
+    GridRun rod{};
   };
 
   /// Calls is_enough(position, squared distance) for points within `radius`, until it holds.

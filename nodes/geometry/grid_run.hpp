@@ -10,7 +10,7 @@ namespace posevote::geometry {
 
 /// Positions begin to end - 1 in the order of a PointGrid.
 struct GridRun {
-  std::uint32_t begin = 0, end = 0;
+  std::uint32_t begin, end;
 };
 
 /// So many floats behind a grid's last coordinate may be read.

@@ -2,6 +2,7 @@
 #include "nodes/geometry/nearest_index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,7 +13,7 @@ namespace posevote::geometry {
 namespace {
 
 constexpr int kBits = 21;           // of a block's place along each axis
-constexpr double kFarthest = 1e18;  // cubes from the origin: farther ones are this far
+constexpr double kFarthest = 1e18;  // cubes from the lowest: farther ones are this far
 constexpr int kShift = 3;           // cubes along a block's side, as a power of two
 constexpr std::int64_t kSide = 1 << kShift;
 constexpr std::uint32_t kCubesPerBlock = kSide * kSide * kSide;
@@ -30,15 +31,9 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return key;
 }
 
-/// std::floor, which is a call where the machine is not known to have it as an instruction.
-std::int64_t floor_of(double value) {
-  const auto whole = static_cast<std::int64_t>(value);
-  return whole - static_cast<std::int64_t>(value < static_cast<double>(whole));
-}
-
-/// Of the cube that holds a point, along one axis.
+/// Of the cube that holds a point, along one axis; not below 0.
 std::int64_t place_of(double in_edges) {
-  return floor_of(std::clamp(in_edges, -kFarthest, kFarthest));
+  return static_cast<std::int64_t>(std::min(in_edges, kFarthest));
 }
 
 /// The number of a cube in its block; those along z follow one another.
@@ -52,6 +47,8 @@ std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
 NearestIndex::NearestIndex(const PointMatrix& points, float distance) {
   const std::vector<std::uint32_t> rows = finite_rows(points);
   if (rows.empty() || !(distance > 0) || !std::isfinite(distance)) return;
+  low_ = points.row(rows.front()).transpose();
+  for (const std::uint32_t i : rows) low_ = low_.cwiseMin(points.row(i).transpose());
   // A trifle more, so that a search for that distance seldom meets a third cube along an axis.
   per_edge_ = 1 / (2.0002 * static_cast<double>(distance));
   std::vector<std::size_t> cubes = number_cubes(points, rows);
@@ -82,7 +79,7 @@ std::vector<std::size_t> NearestIndex::number_cubes(const PointMatrix& points,
   cubes.reserve(rows.size());
   for (const std::uint32_t i : rows) {
     const auto along = [&](Eigen::Index axis) {
-      return place_of(per_edge_ * static_cast<double>(points(i, axis)));
+      return place_of(edges_from_low(points(i, axis), axis));
     };
     const std::int64_t x = along(0), y = along(1), z = along(2);
     const std::uint32_t block = claim(key_of(x >> kShift, y >> kShift, z >> kShift));
@@ -126,9 +123,9 @@ struct Span {
   std::int64_t first, last;
 };
 
-/// The cubes that a ball meets along an axis.
+/// The cubes that a ball meets along an axis, no lower than the lowest.
 inline Span cubes_around(double in_edges, double reach) {
-  return {place_of(in_edges - reach), place_of(in_edges + reach)};
+  return {place_of(std::max(in_edges - reach, 0.0)), place_of(in_edges + reach)};
 }
 inline Span blocks_of(const Span& cubes) { return {cubes.first >> kShift, cubes.last >> kShift}; }
 inline Span in_block(const Span& cubes, std::int64_t block) {
@@ -175,7 +172,7 @@ class NearestIndex::Search {
     if (count_ == 0) return;
     const PointColumns columns{index_.x_.data(), index_.y_.data(), index_.z_.data(),
                                index_.index_.data()};
-    const NearestPoint found = nearest_in_runs(columns, runs_, count_, center_, farthest_);
+    const NearestPoint found = nearest_in_runs(columns, runs_.data(), count_, center_, farthest_);
     count_ = 0;
     const bool ties = best_.index != kNone && found.squared == best_.squared;
     if (found.index == kNone || (ties && found.index > best_.index)) return;
@@ -187,8 +184,8 @@ class NearestIndex::Search {
   const float* center_;
   float farthest_;  ///< squared distance of what is still looked for
   NearestPoint best_;
-  std::size_t count_ = 0;  ///< of runs_
-  GridRun runs_[kRuns];
+  std::size_t count_ = 0;            ///< of runs_
+  std::array<GridRun, kRuns> runs_;  // without values: to write them costs as much as a search
 };
 
 std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
@@ -196,9 +193,11 @@ std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
   if (index_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
   // A trifle more: only the distance decides who is in.
   const double reach = 1.000001 * static_cast<double>(distance) * per_edge_;
-  const Span x = cubes_around(per_edge_ * static_cast<double>(center.x()), reach);
-  const Span y = cubes_around(per_edge_ * static_cast<double>(center.y()), reach);
-  const Span z = cubes_around(per_edge_ * static_cast<double>(center.z()), reach);
+  const double at_x = edges_from_low(center.x(), 0), at_y = edges_from_low(center.y(), 1),
+               at_z = edges_from_low(center.z(), 2);
+  if (std::min({at_x, at_y, at_z}) < -reach) return std::nullopt;
+  const Span x = cubes_around(at_x, reach), y = cubes_around(at_y, reach),
+             z = cubes_around(at_z, reach);
   const Span blocks_x = blocks_of(x), blocks_y = blocks_of(y), blocks_z = blocks_of(z);
   Search search(*this, center, distance);
   if (size_of(blocks_x) * size_of(blocks_y) * size_of(blocks_z) >

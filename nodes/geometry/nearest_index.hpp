@@ -51,7 +51,12 @@ class NearestIndex {
   std::uint32_t claim(std::uint64_t block_key);
   std::uint32_t find(std::uint64_t block_key) const;
 
-  double per_edge_ = 1;  ///< cubes in a metre
+  double edges_from_low(float at, Eigen::Index axis) const {
+    return per_edge_ * (static_cast<double>(at) - static_cast<double>(low_[axis]));
+  }
+
+  Eigen::Vector3f low_ = Eigen::Vector3f::Zero();  ///< of all points
+  double per_edge_ = 1;                            ///< cubes in a metre
   // The points, cube by cube, block by block, and behind them some that are none (PointColumns).
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;

@@ -3,10 +3,18 @@
 
 #include <algorithm>
 
+#include "nodes/geometry/voxels.hpp"
+
 namespace posevote::geometry {
 namespace {
 
 constexpr float kFarther = 2.5F;  // x reach: where ICP begins to look
+constexpr float kPlace = 16;      // x reach: an edge of cubes whose points lie together
+
+/// The finite points', cube by cube.
+std::vector<std::uint32_t> rows_by_place(const PointMatrix& points, float edge) {
+  return group_by_voxel(points, edge).order;
+}
 
 }  // namespace
 
@@ -17,18 +25,19 @@ OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isome
 
 ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
                          const SurfaceTerms& terms)
-    : gone_(static_cast<std::size_t>(scan.points.rows()), 0),
+    : rows_(rows_by_place(scan.points, kPlace * reach)),
+      gone_(static_cast<std::size_t>(scan.points.rows()), 1),
       viewpoint_(scan.view.origin),
       single_view_(single_view),
       facing_cosine_(static_cast<float>(terms.least_facing_cosine)),
       normal_cosine_(static_cast<float>(terms.least_normal_cosine)),
       reach_(reach),
-      near_(scan.points, reach),
-      far_(scan.points, kFarther * reach) {
-  points_.reserve(gone_.size());
-  for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
+      near_(scan.points(rows_, Eigen::all), reach),
+      far_(scan.points(rows_, Eigen::all), kFarther * reach) {
+  points_.reserve(rows_.size());
+  for (const std::uint32_t i : rows_) {
     points_.push_back({scan.points.row(i).transpose(), scan.normals.row(i).transpose()});
-    gone_[points_.size() - 1] = static_cast<char>(!(points_.back().normal.squaredNorm() > 0.5F));
+    gone_[i] = static_cast<char>(!(points_.back().normal.squaredNorm() > 0.5F));
   }
   take_out(gone_);
 }
@@ -36,8 +45,11 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
 void ScanSurface::take_out(const std::vector<char>& explained) {
   for (std::size_t i = 0; i < gone_.size(); ++i)
     gone_[i] = static_cast<char>(gone_[i] | explained[i]);
-  near_.hide(gone_);
-  far_.hide(gone_);
+  std::vector<char> hidden;
+  hidden.reserve(rows_.size());
+  for (const std::uint32_t i : rows_) hidden.push_back(gone_[i]);
+  near_.hide(hidden);
+  far_.hide(hidden);
 }
 
 float ScanSurface::facing_cosine(const OrientedPoint& p) const {
@@ -58,16 +70,22 @@ std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,
                                                              float distance) const {
-  const std::optional<Eigen::Index> row = compatible_row(p, distance);
-  if (!row) return std::nullopt;
-  return points_[static_cast<std::size_t>(*row)];
+  const std::optional<std::uint32_t> found = compatible(p, distance);
+  if (!found) return std::nullopt;
+  return points_[*found];
 }
 
 std::optional<Eigen::Index> ScanSurface::compatible_row(const OrientedPoint& p,
                                                         float distance) const {
+  const std::optional<std::uint32_t> found = compatible(p, distance);
+  if (!found) return std::nullopt;
+  return rows_[*found];
+}
+
+std::optional<std::uint32_t> ScanSurface::compatible(const OrientedPoint& p, float distance) const {
   const std::optional<Neighbour> nearest = nearest_left(p.point, distance);
-  if (!nearest) return std::nullopt;
-  if (points_[nearest->index].normal.dot(p.normal) < normal_cosine_) return std::nullopt;
+  if (!nearest || points_[nearest->index].normal.dot(p.normal) < normal_cosine_)
+    return std::nullopt;
   return nearest->index;
 }
 

@@ -38,7 +38,7 @@ class ScanSurface {
   /// From now on, points with explained[row] are not found either.
   void take_out(const std::vector<char>& explained);
 
-  /// Whether a point was taken out, or had no normal from the start.
+  /// Whether a point was taken out, or had no place or normal from the start.
   bool is_gone(std::size_t row) const { return gone_[row] != 0; }
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
   /// The cosine between a surface's normal and the way to the sensor, which is how large it looks
@@ -49,12 +49,19 @@ class ScanSurface {
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
   /// Which of the scan's that is.
   std::optional<Eigen::Index> compatible_row(const OrientedPoint& p, float distance) const;
-  /// The same, whichever way it looks.
-  std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
+  /// Whether there is any within `distance`, whichever way it looks.
+  bool is_near(const Eigen::Vector3f& point, float distance) const {
+    return nearest_left(point, distance).has_value();
+  }
 
  private:
-  std::vector<OrientedPoint> points_;  // side by side: each is read alone
-  std::vector<char> gone_;             // per row: explained or without a normal
+  /// Its number in points_.
+  std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
+  std::optional<std::uint32_t> compatible(const OrientedPoint& p, float distance) const;
+
+  std::vector<std::uint32_t> rows_;  // place by place: what is asked for together is read together
+  std::vector<OrientedPoint> points_;  // those rows
+  std::vector<char> gone_;             // per row of the scan: explained, or never there
   Eigen::Vector3f viewpoint_;
   bool single_view_;
   float facing_cosine_, normal_cosine_;  // least

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/plane_normals.hpp"
 #include "nodes/geometry/voxels.hpp"
 
@@ -53,10 +54,13 @@ SensorNoise measure_patches(const PointMatrix& points, const Eigen::Vector3f& vi
                             float width) {
   const Voxels voxels = group_by_voxel(points, width);
   const std::size_t step = voxels.size() / kPatches + 1;
+  std::vector<std::optional<Patch>> patches((voxels.size() + step - 1) / step);
+  graph::parallel_for(patches.size(), 64, [&](std::size_t i) {
+    patches[i] = measure(points, voxels[i * step], viewpoint);
+  });
   SensorNoise found;
   std::vector<float> noises, spacings;
-  for (std::size_t v = 0; v < voxels.size(); v += step) {
-    const auto patch = measure(points, voxels[v], viewpoint);
+  for (const auto& patch : patches) {
     if (!patch || !(patch->range > 0)) continue;
     noises.push_back(patch->noise / (patch->range * patch->range));
     spacings.push_back(patch->spacing / patch->range);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/voxels.hpp"
 
-#include <limits>
+#include <Eigen/Geometry>
 #include <sstream>
 #include <stdexcept>
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/radix_sort.hpp"
+#include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::geometry {
 namespace {
@@ -20,20 +21,20 @@ namespace {
 }
 
 struct Extent {
-  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array3d high = -low;
+  Eigen::Array3d low, high;
 
   double largest() const { return (high - low).maxCoeff(); }
 };
 
 Extent extent_of(const PointMatrix& points, const std::vector<std::uint32_t>& rows) {
-  Extent extent;
-  for (const std::uint32_t i : rows) {
-    const Eigen::Array3d point = points.row(i).transpose().cast<double>();
-    extent.low = extent.low.min(point);
-    extent.high = extent.high.max(point);
-  }
-  return extent;
+  const auto parts = joined_ranges(rows.size(), [&](std::size_t begin, std::size_t end) {
+    Eigen::AlignedBox3f box;
+    for (std::size_t i = begin; i < end; ++i) box.extend(points.row(rows[i]).transpose());
+    return std::vector{box};
+  });
+  Eigen::AlignedBox3f box;
+  for (const Eigen::AlignedBox3f& part : parts) box.extend(part);
+  return {box.min().cast<double>(), box.max().cast<double>()};
 }
 
 /// A point and the number of its voxel, which counts along x, then y, then z.
@@ -58,11 +59,15 @@ Voxels grouped(const PointMatrix& points, const std::vector<std::uint32_t>& rows
   });
   radix_sort(members, [](const Member<Number>& one) { return one.voxel; });
   Voxels voxels;
-  voxels.order.reserve(members.size());
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    if (i == 0 || members[i].voxel != members[i - 1].voxel) voxels.starts.push_back(i);
-    voxels.order.push_back(members[i].index);
-  }
+  voxels.order.resize(members.size());
+  voxels.starts = joined_ranges(members.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<std::size_t> starts;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i == 0 || members[i].voxel != members[i - 1].voxel) starts.push_back(i);
+      voxels.order[i] = members[i].index;
+    }
+    return starts;
+  });
   voxels.starts.push_back(members.size());
   return voxels;
 }

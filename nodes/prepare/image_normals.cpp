@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/plane_fit.hpp"
+#include "nodes/geometry/rows_that.hpp"
 #include "nodes/prepare/image_tile.hpp"
 
 namespace posevote::prepare {
@@ -40,7 +43,7 @@ class PixelPlanes {
     const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     for (auto* column : {&x_, &y_, &z_}) column->assign(size + geometry::kGridPadding, kNowhere);
     weights_.assign(size + geometry::kGridPadding, 0);
-    for (const std::uint32_t i : geometry::finite_rows(scan.points)) put(i, scan.points.row(i));
+    put_all(scan.points);
     // So that the order of the points plays no part in a sample.
     const auto by_pixel = [](const Place& a, const Place& b) { return a.pixel < b.pixel; };
     if (!std::is_sorted(places_.begin(), places_.end(), by_pixel))
@@ -119,20 +122,35 @@ class PixelPlanes {
  private:
   std::uint32_t pixel_at(int u, int v) const { return static_cast<std::uint32_t>(v * width_ + u); }
 
-  void put(std::uint32_t i, const Eigen::Vector3f& point) {
+  static constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t pixel_of_point(const Eigen::Vector3f& point) const {
     const Eigen::Vector3f ray = point - viewpoint_;
     const Eigen::Vector2f at = (ray.head<2>() / ray.z() - low_).cwiseProduct(per_ray_);
     const bool inside = ray.z() > 0 && at.minCoeff() >= 0 && at.x() < static_cast<float>(width_) &&
                         at.y() < static_cast<float>(height_);
-    const std::uint32_t pixel =
-        inside ? pixel_at(static_cast<int>(at.x()), static_cast<int>(at.y())) : 0;
-    complete_ = complete_ && inside && weights_[pixel] == 0;
-    if (!complete_) return;
-    x_[pixel] = point.x();
-    y_[pixel] = point.y();
-    z_[pixel] = point.z();
-    weights_[pixel] = 1;
-    places_.push_back({i, pixel});
+    return inside ? pixel_at(static_cast<int>(at.x()), static_cast<int>(at.y())) : kOutside;
+  }
+
+  void put_all(const PointMatrix& points) {
+    places_ = geometry::joined_ranges(
+        static_cast<std::size_t>(points.rows()), [&](std::size_t begin, std::size_t end) {
+          std::vector<Place> places;
+          for (std::size_t i = begin; i < end; ++i) {
+            const Eigen::Vector3f point = points.row(static_cast<Eigen::Index>(i));
+            if (point.allFinite())
+              places.push_back({static_cast<std::uint32_t>(i), pixel_of_point(point)});
+          }
+          return places;
+        });
+    for (const auto& [i, pixel] : places_) {
+      complete_ = complete_ && pixel != kOutside && weights_[pixel] == 0;
+      if (!complete_) return;
+      x_[pixel] = points(i, 0);
+      y_[pixel] = points(i, 1);
+      z_[pixel] = points(i, 2);
+      weights_[pixel] = 1;
+    }
   }
 
   /// The distance of two pixels, the second of which may be outside or without a measurement.
@@ -241,9 +259,10 @@ std::optional<PointMatrix> image_normals(const Scan& scan, float smallest, float
                                          int min_neighbours) {
   if (scan.view.pixels.minCoeff() < 1 || scan.view.image.isEmpty()) return std::nullopt;
   const PixelPlanes planes(scan);
+  if (!planes.complete()) return std::nullopt;
   const float spacing = planes.spacing();
+  if (!(spacing > 0)) return std::nullopt;
   const float start = std::max(smallest, spacings * spacing);
-  if (!planes.complete() || !(spacing > 0)) return std::nullopt;
   const auto is_quick = [&](float radius) {
     return radius <= kMostSpacings * spacing && planes.window_size(radius) <= kMostPixels;
   };

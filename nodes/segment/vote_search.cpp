@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "graph/parallel.hpp"
 #include "nodes/density/refine_mode.hpp"
 
 namespace posevote::segment {
@@ -33,11 +34,12 @@ poses::Sought sought_for(const LiveVotes& object, const poses::ScanState& scan,
 }
 
 std::vector<Hypothesis> modes_of(const LiveVotes& object) {
-  std::vector<Hypothesis> modes;
-  for (const std::uint32_t vote : density::best_votes(*object.votes, object.density)) {
-    modes.push_back(density::vote_hypothesis(*object.votes, vote));
-    modes.back().support = object.density[vote];
-  }
+  const std::vector<std::uint32_t> best = density::best_votes(*object.votes, object.density);
+  std::vector<Hypothesis> modes(best.size());
+  graph::parallel_for(best.size(), 4096, [&](std::size_t i) {
+    modes[i] = density::vote_hypothesis(*object.votes, best[i]);
+    modes[i].support = object.density[best[i]];
+  });
   return modes;
 }
 

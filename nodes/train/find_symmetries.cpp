@@ -137,9 +137,7 @@ class Judge {
 
  private:
   /// Normals aside, which are anyone's at an edge.
-  bool is_on(const geometry::OrientedPoint& p) const {
-    return surface_.nearest_left(p.point, fine_).has_value();
-  }
+  bool is_on(const geometry::OrientedPoint& p) const { return surface_.is_near(p.point, fine_); }
 
   const Params& params_;
   Cloud sample_;

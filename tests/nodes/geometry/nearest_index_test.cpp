@@ -52,14 +52,14 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
     const float distance = (q % 3 == 0 ? 4 * kReach : kReach) * share(random);
     const auto expected = by_brute_force(points, center, distance, hidden);
     const auto got = near.nearest(center, distance);
-    const auto left = surface.nearest_left(center, distance);
+    const auto left = surface.nearest_compatible({center, Eigen::Vector3f::UnitZ()}, distance);
     REQUIRE(got.has_value() == expected.has_value());
     REQUIRE(left.has_value() == expected.has_value());
     if (!got) continue;
     ++found;
     CHECK(got->index == expected->index);
     CHECK(got->squared == expected->squared);
-    CHECK(left->index == expected->index);
+    CHECK((left->point - center).squaredNorm() == Approx(expected->squared));
   }
   CHECK(found > 100);
 }
