@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/data/face_ends.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/data/symmetries.hpp"
 
@@ -70,6 +71,7 @@ struct Model {
   std::shared_ptr<const pairs::PairTable> rims;   ///< likewise
   /// The same object at its next octaves, ascending; the features are all in the finest.
   std::vector<std::shared_ptr<const Model>> coarser;
+  KnownFaceEnds face_ends;
 
   /// The finest that is not finer than a scan, or the coarsest: scans are judged by it.
   const Model& at(float scan_resolution) const {

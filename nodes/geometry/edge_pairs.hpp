@@ -23,13 +23,6 @@ struct EdgeTerms {
   double spread = 1;  ///< by which an end is off, one deviation
 };
 
-/// Where a face of a model ends.
-struct FaceEnd {
-  Eigen::Index row = 0;                                 ///< of a point at its rim
-  Eigen::Vector3f place = Eigen::Vector3f::Zero();      ///< of the end [m]
-  Eigen::Vector3f direction = Eigen::Vector3f::Zero();  ///< along the face; unit length
-};
-
 /// At most so many, evenly strewn. `resolution`: of the model and of the scan [m].
 std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, float resolution,
                                     int most);

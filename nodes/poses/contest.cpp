@@ -25,9 +25,8 @@ bool are_apart(const Claim& a, const Claim& b) {
 }
 
 std::vector<char> explained_by(const Claim& claim, const ScanState& scan) {
-  const geometry::PointGrid grid(claim.model.cloud.points, claim.tolerance);
-  return explain_points(claim.model.cloud, grid, claim.candidate.T_scene_model, scan.cloud.points,
-                        scan.cloud.normals, claim.tolerance);
+  return explain_points(claim.model.cloud, claim.model_grid, claim.candidate.T_scene_model,
+                        scan.cloud.points, scan.cloud.normals, claim.tolerance);
 }
 
 }  // namespace

@@ -12,9 +12,7 @@
 #include <mutex>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
-#include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/measure_fit.hpp"
 #include "nodes/poses/scan_state.hpp"
 
@@ -75,27 +73,11 @@ class Answers {
   std::unordered_map<Question, Known, QuestionHash> known_;
 };
 
-/// What is made by whoever asks for it first.
-template <class Value>
-class Once {
- public:
-  template <class Make>
-  const Value& get(const Make& make) {
-    std::call_once(made_, [&] { value_ = make(); });
-    return value_;
-  }
-
- private:
-  std::once_flag made_;
-  Value value_;
-};
-
 /// Of one object.
 struct Memory {
   Answers<Fit> fits;
   Answers<Eigen::Isometry3d> refined;
   Answers<std::size_t> explained;
-  Once<std::vector<geometry::FaceEnd>> face_ends, few_face_ends;  ///< of the model
 };
 
 }  // namespace posevote::poses

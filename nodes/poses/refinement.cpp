@@ -38,19 +38,17 @@ void run_icp(const Sought& sought, Candidate& candidate, Kind kind,
   });
 }
 
-using Ends = std::vector<geometry::FaceEnd>;
-
-/// Found once, and only where ICP has to run: for each of its `points` on planes as many ends as in
-/// the last ICP.
-geometry::MorePairs ends_of(const Sought& sought, Once<Ends>& known, int points) {
+/// For each of ICP's `points` on planes as many ends as in the last ICP.
+geometry::MorePairs ends_of(const Sought& sought, int points) {
   const double share =
       std::min(1.0, static_cast<double>(points) / sought.terms.refinement.polish_points);
   const auto most = static_cast<int>(std::ceil(share * sought.terms.edges.ends));
-  return [&sought, &known, most](const Eigen::Isometry3d& pose, double variance) {
+  return [&sought, most](const Eigen::Isometry3d& pose, double variance) {
     const Model& model = sought.model;
     const float resolution = sought.scan.resolution;
-    const Ends& ends = known.get(
-        [&] { return geometry::find_face_ends(model.cloud, model.outline, resolution, most); });
+    const std::vector<FaceEnd>& ends = model.face_ends.get(resolution, most, [&] {
+      return geometry::find_face_ends(model.cloud, model.outline, resolution, most);
+    });
     return geometry::FaceEnds(model.cloud, ends, sought.scan.surface, sought.scan.view, resolution,
                               sought.terms.edges)
         .pairs(pose, variance);
@@ -131,7 +129,7 @@ void refine(const Sought& sought, Candidate& candidate) {
   const bool is_new = !std::exchange(candidate.is_refined, true);
   if (is_new)
     run_icp(sought, candidate, kFull, steps(sought.params.icp_distance),
-            ends_of(sought, sought.memory->few_face_ends, terms.full_points));
+            ends_of(sought, terms.full_points));
   judge_refined(sought, candidate, look);
   if (!is_new) return;
   try_contour(sought, candidate, kFullByContour, steps(sought.params.tolerance), contour_of(sought),
@@ -142,7 +140,7 @@ void polish(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;
   const geometry::IcpParams steps =
       steps_from(sought, sought.params.tolerance, terms.polish_points, terms.polish_still, true);
-  const geometry::MorePairs ends = ends_of(sought, sought.memory->face_ends, terms.polish_points);
+  const geometry::MorePairs ends = ends_of(sought, terms.polish_points);
   run_icp(sought, candidate, kPolish, steps, ends);
   judge_refined(sought, candidate, kAllPoints);
   try_contour(sought, candidate, kPolishByContour, steps, both(ends, contour_of(sought)),

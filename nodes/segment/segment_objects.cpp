@@ -22,10 +22,12 @@
 //   segment_new_objects: {in: [votes, densities, scene_features, scene_cloud, scale, seen],
 //                         out: [detections, sightings]}
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "graph/parallel.hpp"
 #include "nodes/density/refine_mode.hpp"
 #include "nodes/poses/sightings.hpp"
 #include "nodes/segment/vote_search.hpp"
@@ -74,13 +76,15 @@ Detections segment(const ModelVotes& votes, const PerObject<VoteDensity>& densit
   check_votes(votes, densities, static_cast<std::size_t>(scene_features.points.rows()));
   for (const auto& slot : votes.slots) poses::check_model(*slot->model);
   poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms);
-  std::vector<LiveVotes> objects;
-  for (std::size_t i = 0; i < votes.size(); ++i)
-    objects.push_back(all_votes(votes[i], densities[i]));
+  std::vector<LiveVotes> objects(votes.size());
+  std::vector<std::optional<poses::Sought>> sought(votes.size());
+  graph::parallel_for(votes.size(), 1, [&](std::size_t i) {
+    objects[i] = all_votes(votes[i], densities[i]);
+    sought[i].emplace(sought_for(objects[i], scan, params));
+  });
   std::vector<poses::ObjectSearch> searches;
-  for (LiveVotes& object : objects)
-    searches.emplace_back(sought_for(object, scan, params),
-                          propose_from(object, scan, params.terms));
+  for (std::size_t i = 0; i < votes.size(); ++i)
+    searches.emplace_back(*std::move(sought[i]), propose_from(objects[i], scan, params.terms));
   accept(sightings, searches, scan);
   const poses::Instances instances = poses::find_instances(searches, scan);
   Detections detections =

@@ -56,7 +56,7 @@ TEST_CASE("at most so many ends of a face are found, evenly strewn", "[segment]"
   CHECK(ends.size() > 40);
   CHECK(ends.size() <= 80);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const geometry::FaceEnd& end : ends) {
+  for (const FaceEnd& end : ends) {
     const Eigen::Vector3f beyond =
         (end.place.cwiseAbs() - Eigen::Vector3f(0.06F, 0.04F, 0)).cwiseMax(0);
     CHECK(beyond.norm() < 2 * kStep);  // at the rim

@@ -39,7 +39,11 @@ struct Contest {
     whole.confidence = of_all;
     other.confidence = of_part;
     other.T_scene_model.translation().x() = aside;
-    return goes_before({all, whole, 2 * kSpacing}, {part, other, 2 * kSpacing}, state);
+    constexpr float kTolerance = 2 * kSpacing;
+    const geometry::PointGrid whole_grid(all.cloud.points, kTolerance),
+        part_grid(part.cloud.points, kTolerance);
+    return goes_before({all, whole_grid, whole, kTolerance}, {part, part_grid, other, kTolerance},
+                       state);
   }
 };
 
