@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kBits = 21;           // of a block's place along each axis
 constexpr double kFarthest = 1e18;  // cubes from the lowest: farther ones are this far
+constexpr float kLowest = -1e6F;    // [m]; by a lower one the places of all others would be rounded
 constexpr int kShift = 3;           // cubes along a block's side, as a power of two
 constexpr std::int64_t kSide = 1 << kShift;
 constexpr std::uint32_t kCubesPerBlock = kSide * kSide * kSide;
@@ -31,9 +32,9 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return key;
 }
 
-/// Of the cube that holds a point, along one axis; not below 0.
+/// Of the cube that holds a point, along one axis.
 std::int64_t place_of(double in_edges) {
-  return static_cast<std::int64_t>(std::min(in_edges, kFarthest));
+  return static_cast<std::int64_t>(std::clamp(in_edges, 0.0, kFarthest));
 }
 
 /// The number of a cube in its block; those along z follow one another.
@@ -49,6 +50,7 @@ NearestIndex::NearestIndex(const PointMatrix& points, float distance) {
   if (rows.empty() || !(distance > 0) || !std::isfinite(distance)) return;
   low_ = points.row(rows.front()).transpose();
   for (const std::uint32_t i : rows) low_ = low_.cwiseMin(points.row(i).transpose());
+  low_ = low_.cwiseMax(kLowest);
   // A trifle more, so that a search for that distance seldom meets a third cube along an axis.
   per_edge_ = 1 / (2.0002 * static_cast<double>(distance));
   std::vector<std::size_t> cubes = number_cubes(points, rows);
@@ -123,9 +125,9 @@ struct Span {
   std::int64_t first, last;
 };
 
-/// The cubes that a ball meets along an axis, no lower than the lowest.
+/// The cubes that a ball meets along an axis.
 inline Span cubes_around(double in_edges, double reach) {
-  return {place_of(std::max(in_edges - reach, 0.0)), place_of(in_edges + reach)};
+  return {place_of(in_edges - reach), place_of(in_edges + reach)};
 }
 inline Span blocks_of(const Span& cubes) { return {cubes.first >> kShift, cubes.last >> kShift}; }
 inline Span in_block(const Span& cubes, std::int64_t block) {
@@ -193,11 +195,9 @@ std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
   if (index_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
   // A trifle more: only the distance decides who is in.
   const double reach = 1.000001 * static_cast<double>(distance) * per_edge_;
-  const double at_x = edges_from_low(center.x(), 0), at_y = edges_from_low(center.y(), 1),
-               at_z = edges_from_low(center.z(), 2);
-  if (std::min({at_x, at_y, at_z}) < -reach) return std::nullopt;
-  const Span x = cubes_around(at_x, reach), y = cubes_around(at_y, reach),
-             z = cubes_around(at_z, reach);
+  const Span x = cubes_around(edges_from_low(center.x(), 0), reach);
+  const Span y = cubes_around(edges_from_low(center.y(), 1), reach);
+  const Span z = cubes_around(edges_from_low(center.z(), 2), reach);
   const Span blocks_x = blocks_of(x), blocks_y = blocks_of(y), blocks_z = blocks_of(z);
   Search search(*this, center, distance);
   if (size_of(blocks_x) * size_of(blocks_y) * size_of(blocks_z) >

@@ -55,7 +55,7 @@ class NearestIndex {
     return per_edge_ * (static_cast<double>(at) - static_cast<double>(low_[axis]));
   }
 
-  Eigen::Vector3f low_ = Eigen::Vector3f::Zero();  ///< of all points
+  Eigen::Vector3f low_ = Eigen::Vector3f::Zero();  ///< of all points, but strays; lower is cube 0
   double per_edge_ = 1;                            ///< cubes in a metre
   // The points, cube by cube, block by block, and behind them some that are none (PointColumns).
   std::vector<float> x_, y_, z_;

@@ -2,7 +2,9 @@
 #include "nodes/geometry/scan_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
@@ -11,9 +13,15 @@ namespace {
 constexpr float kFarther = 2.5F;  // x reach: where ICP begins to look
 constexpr float kPlace = 16;      // x reach: an edge of cubes whose points lie together
 
-/// The finite points', cube by cube.
+/// The finite points', cube by cube; as they are where there are no such cubes.
 std::vector<std::uint32_t> rows_by_place(const PointMatrix& points, float edge) {
-  return group_by_voxel(points, edge).order;
+  constexpr float kLeast = 1e-6F;  // of what the points span: strays are no reason to fail
+  std::vector<std::uint32_t> rows = finite_rows(points);
+  Eigen::AlignedBox3f box;
+  for (const std::uint32_t i : rows) box.extend(points.row(i).transpose());
+  if (!rows.empty()) edge = std::max(edge, kLeast * box.sizes().maxCoeff());
+  if (!(edge > 0) || !std::isfinite(edge)) return rows;
+  return group_by_voxel(points, rows, edge).order;
 }
 
 }  // namespace

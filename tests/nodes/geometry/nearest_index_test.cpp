@@ -82,6 +82,7 @@ TEST_CASE("an outlier far away costs no exactness", "[prepare]") {
   std::mt19937 random(3);
   PointMatrix points = random_points(2000, 0.03F, random);
   points.row(7) << 1e6F, -1e5F, 3e4F;
+  if (GENERATE(false, true)) points.row(6) << -1e30F, -2e6F, 1e20F;
   points.row(8) << std::numeric_limits<float>::quiet_NaN(), 0, 0;
   points.row(9) << 0, std::numeric_limits<float>::infinity(), 0;
   check_against_brute_force(points, 0.03F, random);
@@ -104,6 +105,7 @@ TEST_CASE("nothing is near nothing", "[prepare]") {
   const PointMatrix none(0, 3), one = PointMatrix::Zero(1, 3);
   CHECK(!geometry::NearestIndex(none, kReach).nearest({0, 0, 0}, kReach));
   CHECK(!geometry::NearestIndex(one, 0).nearest({0, 0, 0}, kReach));
+  CHECK(!geometry::ScanSurface({one, one, {}}, false, 0).is_near({0, 0, 0}, kReach));
   geometry::NearestIndex near(one, kReach);
   CHECK(near.nearest({0, 0, 0}, 0));
   CHECK(!near.nearest({0, std::nanf(""), 0}, kReach));
