@@ -22,7 +22,7 @@ enum Clue : std::size_t {
   kGaps,       ///< log of how much of the model's gaps and outline the scan's meets, looked at
                ///< closely
   kFilled,     ///< share of its holes and slots in which the scan has a surface, times kSupport
-  kVisible,    ///< log of the share of what turns to the sensor that nothing hides
+  kVisible,    ///< log of the share of what faces the sensor that nothing hides, times -kRelief
   kSunk,       ///< share of its surface that lies in the ground
   kClueCount
 };

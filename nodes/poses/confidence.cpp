@@ -46,9 +46,11 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   clues[kOverhang] = (1 - shares.continuity) * clues[kSupport];
   clues[kGaps] = bounded_log(shares.gaps + 0.01, 0.01, 0.5);
   clues[kFilled] = shares.filled_holes * clues[kSupport];
-  clues[kVisible] = bounded_log(static_cast<double>(fit.facing - fit.hidden) /
-                                    static_cast<double>(std::max<std::size_t>(1, fit.facing)),
-                                0.02, 1);
+  // A small piece of a thing may tell it, but not one that is flat.
+  clues[kVisible] =
+      -clues[kRelief] * bounded_log(static_cast<double>(fit.facing - fit.hidden) /
+                                        static_cast<double>(std::max<std::size_t>(1, fit.facing)),
+                                    0.02, 1);
   clues[kSunk] = std::min(backing.sunk, kAllSunk);
   return clues;
 }

@@ -54,12 +54,13 @@ struct ScoreTerms {
 };
 
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were
-/// fitted (posevote calibrate) on 368 images: configs/calibration{,_more}_scenes.yaml.
+/// fitted (posevote calibrate) on 368 images: configs/calibration{,_more}_scenes.yaml; the offset and
+/// the weight of kVisible once more by themselves, since it tells flat from rich.
 struct ConfidenceTerms {
-  double offset = -10.71;
+  double offset = -10.64;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
   Clues weights{1.964, 0.6738, 1.824,  -6.274,  0.5448, 0.458,
-                3.615, 2.177,  0.6542, -0.4149, 0.3233, -13.99};
+                3.615, 2.177,  0.6542, -0.4149, 0.416,  -13.99};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -22,8 +22,8 @@ const char* meaning_of(const std::string& clue) {
        "the scan goes on where the object should end", "few of the features on it voted for it",
        "other places have as many votes", "it lies off by more than the scan's other instances",
        "few of its points are seen", "its holes, slots and edges are not met by the scan's",
-       "the scan has a surface where the object has holes", "much of it is hidden",
-       "much of it would lie in the ground"});
+       "the scan has a surface where the object has holes",
+       "much of it is hidden, and the rest is flat", "much of it would lie in the ground"});
   static_assert(kMeanings.size() == kClueCount);
   const auto at = std::find(kClueNames.begin(), kClueNames.end(), clue);
   if (at == kClueNames.end()) return "its colours are not those that the camera saw";
