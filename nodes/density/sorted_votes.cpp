@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/density/sorted_votes.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/density/rotation_cells.hpp"
+#include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/radix_sort.hpp"
 #include "nodes/geometry/rows_that.hpp"
 
@@ -36,17 +36,10 @@ constexpr auto kAxes = {&TranslationCell::x, &TranslationCell::y, &TranslationCe
 /// The cells that usable votes, at least one, lie in.
 CellRange range_of(const VoteSet& votes, const std::vector<std::uint32_t>& usable,
                    Bandwidth bandwidth) {
-  const auto parts =
-      geometry::joined_ranges(usable.size(), [&](std::size_t begin, std::size_t end) {
-        Eigen::AlignedBox3f box;
-        for (std::size_t i = begin; i < end; ++i) {
-          const std::uint32_t v = usable[i];
-          box.extend(Eigen::Vector3f(votes.tx[v], votes.ty[v], votes.tz[v]));
-        }
-        return std::vector{box};
-      });
-  Eigen::AlignedBox3f box;
-  for (const Eigen::AlignedBox3f& part : parts) box.extend(part);
+  const Eigen::AlignedBox3f box = geometry::box_around(usable.size(), [&](std::size_t i) {
+    const std::uint32_t v = usable[i];
+    return Eigen::Vector3f(votes.tx[v], votes.ty[v], votes.tz[v]);
+  });
   const auto cell_of = [bandwidth](const Eigen::Vector3f& place) {
     return translation_cell({place.x(), place.y(), place.z(), 1, 0, 0, 0}, bandwidth);
   };

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/cells.hpp"
 
 namespace posevote::geometry {
@@ -48,9 +49,7 @@ std::uint32_t place_in_block(std::int64_t x, std::int64_t y, std::int64_t z) {
 NearestIndex::NearestIndex(const PointMatrix& points, float distance) {
   const std::vector<std::uint32_t> rows = finite_rows(points);
   if (rows.empty() || !(distance > 0) || !std::isfinite(distance)) return;
-  low_ = points.row(rows.front()).transpose();
-  for (const std::uint32_t i : rows) low_ = low_.cwiseMin(points.row(i).transpose());
-  low_ = low_.cwiseMax(kLowest);
+  low_ = box_around(points, rows).min().cwiseMax(kLowest);
   // A trifle more, so that a search for that distance seldom meets a third cube along an axis.
   per_edge_ = 1 / (2.0002 * static_cast<double>(distance));
   std::vector<std::size_t> cubes = number_cubes(points, rows);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/voxels.hpp"
 
@@ -17,9 +18,7 @@ constexpr float kPlace = 16;      // x reach: an edge of cubes whose points lie 
 std::vector<std::uint32_t> rows_by_place(const PointMatrix& points, float edge) {
   constexpr float kLeast = 1e-6F;  // of what the points span: strays are no reason to fail
   std::vector<std::uint32_t> rows = finite_rows(points);
-  Eigen::AlignedBox3f box;
-  for (const std::uint32_t i : rows) box.extend(points.row(i).transpose());
-  if (!rows.empty()) edge = std::max(edge, kLeast * box.sizes().maxCoeff());
+  if (!rows.empty()) edge = std::max(edge, kLeast * box_around(points, rows).sizes().maxCoeff());
   if (!(edge > 0) || !std::isfinite(edge)) return rows;
   return group_by_voxel(points, rows, edge).order;
 }

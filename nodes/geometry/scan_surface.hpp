@@ -55,7 +55,7 @@ class ScanSurface {
   }
 
  private:
-  /// Its number in points_.
+  /// Which of points_ is nearest, whichever way it looks; if it agrees, for `compatible`.
   std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
   std::optional<std::uint32_t> compatible(const OrientedPoint& p, float distance) const;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/voxels.hpp"
 
-#include <Eigen/Geometry>
 #include <sstream>
 #include <stdexcept>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/radix_sort.hpp"
 #include "nodes/geometry/rows_that.hpp"
@@ -27,13 +27,7 @@ struct Extent {
 };
 
 Extent extent_of(const PointMatrix& points, const std::vector<std::uint32_t>& rows) {
-  const auto parts = joined_ranges(rows.size(), [&](std::size_t begin, std::size_t end) {
-    Eigen::AlignedBox3f box;
-    for (std::size_t i = begin; i < end; ++i) box.extend(points.row(rows[i]).transpose());
-    return std::vector{box};
-  });
-  Eigen::AlignedBox3f box;
-  for (const Eigen::AlignedBox3f& part : parts) box.extend(part);
+  const Eigen::AlignedBox3f box = box_around(points, rows);
   return {box.min().cast<double>(), box.max().cast<double>()};
 }
 

@@ -11,7 +11,6 @@
 #include "graph/parallel.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/plane_fit.hpp"
-#include "nodes/geometry/rows_that.hpp"
 #include "nodes/prepare/image_tile.hpp"
 
 namespace posevote::prepare {
@@ -133,16 +132,11 @@ class PixelPlanes {
   }
 
   void put_all(const PointMatrix& points) {
-    places_ = geometry::joined_ranges(
-        static_cast<std::size_t>(points.rows()), [&](std::size_t begin, std::size_t end) {
-          std::vector<Place> places;
-          for (std::size_t i = begin; i < end; ++i) {
-            const Eigen::Vector3f point = points.row(static_cast<Eigen::Index>(i));
-            if (point.allFinite())
-              places.push_back({static_cast<std::uint32_t>(i), pixel_of_point(point)});
-          }
-          return places;
-        });
+    const std::vector<std::uint32_t> rows = geometry::finite_rows(points);
+    places_.resize(rows.size());
+    graph::parallel_for(rows.size(), 8192, [&](std::size_t i) {
+      places_[i] = {rows[i], pixel_of_point(points.row(rows[i]))};
+    });
     for (const auto& [i, pixel] : places_) {
       complete_ = complete_ && pixel != kOutside && weights_[pixel] == 0;
       if (!complete_) return;
