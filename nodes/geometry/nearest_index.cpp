@@ -199,8 +199,9 @@ std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
   const Span z = cubes_around(edges_from_low(center.z(), 2), reach);
   const Span blocks_x = blocks_of(x), blocks_y = blocks_of(y), blocks_z = blocks_of(z);
   Search search(*this, center, distance);
-  if (size_of(blocks_x) * size_of(blocks_y) * size_of(blocks_z) >
-      static_cast<double>(blocks_) + 8) {
+  // A ball of half a block meets eight at most, which are quickly asked for.
+  if (reach > kSide / 2 && size_of(blocks_x) * size_of(blocks_y) * size_of(blocks_z) >
+                               static_cast<double>(blocks_) + 8) {
     search.look(0, begin_.back());  // all: fewer than places to look for them
     return search.result();
   }

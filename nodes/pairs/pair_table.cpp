@@ -19,6 +19,7 @@ namespace posevote::pairs {
 namespace {
 
 constexpr float kMostSteps = 101;        ///< tables grow with it to the fourth power
+constexpr std::uint32_t kFew = 64;       ///< of a bin: to look at all is quicker than to search
 constexpr std::size_t kMostRims = 1500;  ///< tables grow with its square
 
 float checked(float step, float reach) {
@@ -64,7 +65,7 @@ PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach,
   };
   for_each_pair([this](std::uint32_t bin, std::size_t, std::size_t) { ++starts_[bin]; });
   std::exclusive_scan(starts_.begin(), starts_.end(), starts_.begin(), 0U);
-  ends_.resize(starts_.back());
+  ends_.resize(starts_.back() + kEndPadding);
   std::vector<std::uint32_t> next = starts_;
   const PointMatrix lab = has_colors_ ? color::lab_of(colors) : PointMatrix();
   const auto color_at = [&](std::size_t i) {
@@ -80,6 +81,27 @@ PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach,
               [](const PairEnd& x, const PairEnd& y) {
                 return std::tie(x.turn, x.point) < std::tie(y.turn, y.point);
               });
+}
+
+void PairTable::add_turned(std::uint32_t bin, int turn, int most,
+                           std::vector<TurnedRun>& runs) const {
+  const auto first_turn = static_cast<std::uint8_t>(turn - most);
+  const std::uint32_t begin = starts_[bin], end = starts_[bin + 1];
+  if (end - begin <= kFew) {
+    if (begin < end) runs.push_back({begin, end, first_turn});
+    return;
+  }
+  const auto position = [&](int least) {
+    const auto at = std::ranges::lower_bound(ends_.begin() + begin, ends_.begin() + end, least, {},
+                                             &PairEnd::turn);
+    return static_cast<std::uint32_t>(at - ends_.begin());
+  };
+  for (const int around : {-256, 0, 256}) {
+    const int low = turn - most + around, high = turn + most + around;
+    if (high < 0 || low > 255) continue;
+    if (const TurnedRun run{position(low), position(high + 1), first_turn}; run.begin < run.end)
+      runs.push_back(run);
+  }
 }
 
 std::shared_ptr<const PairTable> index_pairs(const Model& model, float step) {

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "nodes/data/model.hpp"
+#include "nodes/pairs/count_turned.hpp"
 #include "nodes/pairs/local_frame.hpp"
+#include "nodes/pairs/pair_end.hpp"
 
 namespace posevote::pairs {
-
-/// One end of a pair of a model's points, and the turn about it at which the other end lies.
-struct PairEnd {
-  std::uint16_t point = 0;  ///< its number among the table's points
-  std::uint8_t turn = 0;    ///< of LocalFrame
-  std::uint8_t color = 0;   ///< color_step to the other end, where the table has colours
-};
 
 /// All pairs of points of a model, by their pair_bin. Immutable.
 class PairTable {
@@ -44,34 +38,20 @@ class PairTable {
   void fetch_start(std::uint32_t bin) const { __builtin_prefetch(&starts_[bin]); }
   void fetch_pairs(std::uint32_t bin) const { __builtin_prefetch(ends_.data() + starts_[bin]); }
 
-  /// Calls visit(end) for each of a bin whose turn is at most `most` off, of 256 in a circle;
-  /// `most` < 128.
-  template <class Visit>
-  void for_each_turned(std::uint32_t bin, int turn, int most, const Visit& visit) const {
-    const std::span<const PairEnd> ends = (*this)[bin];
-    if (ends.size() <= kFew) {  // to look at them all is quicker than to search
-      for (const PairEnd& end : ends)
-        if (static_cast<std::uint8_t>(end.turn - turn + most) <= 2 * most) visit(end);
-      return;
-    }
-    for (const int around : {-256, 0, 256}) {
-      const int low = turn - most + around, high = turn + most + around;
-      if (high < 0 || low > 255) continue;
-      auto end = std::ranges::lower_bound(ends, low, {}, &PairEnd::turn);
-      for (; end != ends.end() && end->turn <= high; ++end) visit(*end);
-    }
-  }
+  /// Adds runs of a bin's ends for count_turned, among them all whose turn is at most `most` off
+  /// `turn`, of 256 in a circle, each once; `most` < 128.
+  void add_turned(std::uint32_t bin, int turn, int most, std::vector<TurnedRun>& runs) const;
+  /// Of all bins, kEndPadding more behind the last: what the runs point into.
+  const PairEnd* ends() const { return ends_.data(); }
 
  private:
-  static constexpr std::size_t kFew = 32;
-
   PairTable(const Cloud& thin, float step, float reach, int);
 
   float step_ = 0, reach_ = 0;
   bool has_colors_ = false;
   std::vector<LocalFrame> points_;
   std::vector<std::uint32_t> starts_;  ///< per bin, and the end
-  std::vector<PairEnd> ends_;
+  std::vector<PairEnd> ends_;          ///< padded
 };
 
 /// Of the coarsest of a model's octaves: thinned, it is the smoothest. `step` [m].

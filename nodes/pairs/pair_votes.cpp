@@ -81,27 +81,28 @@ void PairVotes::for_each_pair(const PairTable& table, const Visit& visit) {
 }
 
 /// The best turn of one point: its count and its neighbours', whose balance tells where between them
-/// it lies.
+/// it lies. Without branches but at the end, so that compilers take many turns at once.
 PairPeak PairVotes::peak_of(std::size_t point) const {
   const std::uint16_t* counts = &counts_[point * kTurns];
-  std::array<std::uint32_t, kTurns + 2> ring;  // whose ends meet
+  std::array<std::int32_t, kTurns + 2> ring;  // whose ends meet
   std::copy_n(counts, kTurns, ring.begin() + 1);
   ring.front() = counts[kTurns - 1];
   ring.back() = counts[0];
-  std::uint32_t most = 0, at = 0;
-  for (std::uint32_t k = 0; k < kTurns; ++k) {
-    const std::uint32_t sum = ring[k] + ring[k + 1] + ring[k + 2];
-    if (sum <= most || ring[k + 1] < ring[k] || ring[k + 1] < ring[k + 2]) continue;
-    most = sum;
-    at = k;
+  std::array<std::int32_t, kTurns> sums;
+  std::int32_t most = 0;
+  for (std::size_t k = 0; k < kTurns; ++k) {
+    const bool is_peak = (ring[k + 1] >= ring[k]) & (ring[k + 1] >= ring[k + 2]);
+    sums[k] = is_peak ? ring[k] + ring[k + 1] + ring[k + 2] : 0;
+    most = std::max(most, sums[k]);
   }
   if (most == 0) return {};
+  const auto at = static_cast<std::size_t>(std::ranges::find(sums, most) - sums.begin());
   const float lean =
       (static_cast<float>(ring[at + 2]) - static_cast<float>(ring[at])) / static_cast<float>(most);
   return {
       static_cast<std::uint16_t>(point),
       (static_cast<float>(at) + 0.5F + lean) * static_cast<float>(2 * std::numbers::pi / kTurns),
-      most};
+      static_cast<std::uint32_t>(most)};
 }
 
 /// Of every point that may be among the best.
@@ -158,9 +159,11 @@ std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const PeakOptions
     peaks = peaks_of_turns(points, options.least_ratio);
   } else {
     counts_.assign(points, 0);
+    turned_.clear();
     for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
-      table.for_each_turned(bin, turn, kSameTurn, [&](PairEnd end) { ++counts_[end.point]; });
+      table.add_turned(bin, turn, kSameTurn, turned_);
     });
+    count_turned(table.ends(), turned_.data(), turned_.size(), 2 * kSameTurn, counts_.data());
     peaks = peaks_of_points(options.least_ratio);
   }
   std::stable_sort(peaks.begin(), peaks.end(),

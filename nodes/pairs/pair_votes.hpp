@@ -102,6 +102,7 @@ class PairVotes {
   std::vector<std::uint16_t> most_;     ///< per point: of its turns
   std::vector<std::uint32_t> seen_;     ///< per bin: the turns at which the scan had it
   std::vector<std::uint32_t> touched_;  ///< bins
+  std::vector<TurnedRun> turned_;       ///< of the table, that hold the ends of like turns
 };
 
 }  // namespace posevote::pairs

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/pairs/pair_table.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <limits>
-#include <set>
-#include <utility>
+#include <vector>
 
 #include "nodes/pairs/pair_key.hpp"
 #include "tests/support/shapes.hpp"
@@ -41,22 +41,26 @@ TEST_CASE("every pair of a model's points is in its bin, from both ends", "[pair
   CHECK(all == 60 * 59);
 }
 
-TEST_CASE("of a bin, those with about one turn are found around the circle", "[pairs]") {
-  const pairs::PairTable table(ball(60), 0.02F, 0.1F);
-  std::size_t found = 0;
-  for (std::uint32_t bin = 0; bin < table.bins(); ++bin)
-    for (const int turn : {0, 5, 100, 250, 255}) {
-      std::multiset<std::pair<int, int>> expected, got;
-      for (const pairs::PairEnd end : table[bin]) {
-        const int off = std::abs(turn - end.turn);
-        if (std::min(off, 256 - off) <= 14) expected.emplace(end.point, end.turn);
+TEST_CASE("of a bin, those with about one turn are counted around the circle", "[pairs]") {
+  for (const float step : {0.02F, 0.08F}) {  // few ends a bin; many, which are searched
+    const pairs::PairTable table(ball(step < 0.05F ? 60 : 2000), step, 0.1F);
+    std::size_t found = 0, largest = 0;
+    for (std::uint32_t bin = 0; bin < table.bins(); ++bin)
+      for (const int turn : {0, 5, 100, 250, 255}) {
+        std::vector<std::uint16_t> expected(table.points().size(), 0), counts = expected;
+        for (const pairs::PairEnd end : table[bin]) {
+          const int off = std::abs(turn - end.turn);
+          if (std::min(off, 256 - off) <= 14) ++expected[end.point], ++found;
+        }
+        std::vector<pairs::TurnedRun> runs;
+        table.add_turned(bin, turn, 14, runs);
+        pairs::count_turned(table.ends(), runs.data(), runs.size(), 28, counts.data());
+        CHECK(counts == expected);
+        largest = std::max(largest, table[bin].size());
       }
-      table.for_each_turned(bin, turn, 14,
-                            [&](pairs::PairEnd end) { got.emplace(end.point, end.turn); });
-      CHECK(got == expected);
-      found += got.size();
-    }
-  CHECK(found > 100);
+    CHECK(found > 100);
+    CHECK((largest > 64) == (step > 0.05F));
+  }
 }
 
 TEST_CASE("a table is of a thinned model", "[pairs]") {
