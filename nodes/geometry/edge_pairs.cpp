@@ -43,7 +43,7 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, 
     });
   const auto wanted = static_cast<std::size_t>(most);
   const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
-  const PointGrid grid(model.points, resolution);
+  const SurfaceIndex index(model.points, resolution);
   const auto agree = [](float cosine) {
     return cosine >= static_cast<float>(SurfaceTerms{}.least_normal_cosine);
   };
@@ -54,13 +54,12 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, 
   // face around the corner, where the scan, which seldom shows both, goes on for a spacing: any
   // point of the face will do.
   graph::parallel_for(all.size(), 64, [&](std::size_t k) {
-    NearSurface surface(model, grid);
+    NearSurface surface(model, index);
     const OrientedPoint from{all[k].place, model.normals.row(all[k].row).transpose()};
-    lengths[k] =
-        length_of(from, all[k].direction, kStep * resolution, kRim * resolution,
-                  [&](const OrientedPoint& at) {
-                    return surface.is_near(at.point, at.normal, resolution, resolution, agree);
-                  });
+    lengths[k] = length_of(from, all[k].direction, kStep * resolution, kRim * resolution,
+                           [&](const OrientedPoint& at) {
+                             return surface.is_near(at.point, at.normal, resolution, agree);
+                           });
   });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < lengths.size(); ++k) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/rows_that.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
@@ -79,20 +80,26 @@ const Eigen::Vector3f* normal_at(const Normals& normals, const Cell& cell) {
   return at != normals.end() && at->cell == cell ? &at->normal : nullptr;
 }
 
+/// Of one cube's normal against the mean of those before and behind it along each axis.
+void add_tilts(const Normals& normals, const CubeNormal& of, std::vector<float>& tilts) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Cell before = of.cell, after = of.cell;
+    --before[axis];
+    ++after[axis];
+    const Eigen::Vector3f* one = normal_at(normals, before);
+    const Eigen::Vector3f* other = one ? normal_at(normals, after) : nullptr;
+    if (!other) continue;
+    const float along = of.normal.dot((*one + *other).normalized());
+    tilts.push_back(std::acos(std::clamp(along, -1.0F, 1.0F)));
+  }
+}
+
 std::vector<float> tilts_of(const Normals& normals) {
-  std::vector<float> tilts;
-  for (const auto& [cell, normal] : normals)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      Cell before = cell, after = cell;
-      --before[axis];
-      ++after[axis];
-      const Eigen::Vector3f* one = normal_at(normals, before);
-      const Eigen::Vector3f* other = one ? normal_at(normals, after) : nullptr;
-      if (!other) continue;
-      const float along = normal.dot((*one + *other).normalized());
-      tilts.push_back(std::acos(std::clamp(along, -1.0F, 1.0F)));
-    }
-  return tilts;
+  return joined_ranges(normals.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<float> tilts;
+    for (std::size_t i = begin; i < end; ++i) add_tilts(normals, normals[i], tilts);
+    return tilts;
+  });
 }
 
 }  // namespace

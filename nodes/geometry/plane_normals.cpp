@@ -164,15 +164,18 @@ float point_spacing(const PointMatrix& points) {
   const float diagonal = middle_diagonal(chosen);
   const float cell = diagonal / std::sqrt(static_cast<float>(places.rows()));
   const PointGrid grid(places, cell);
-  std::vector<float> distances;
-  for (const Eigen::Vector3f& point : chosen) {
+  const auto nearest_to = [&](const Eigen::Vector3f& point) {
     float nearest = std::numeric_limits<float>::infinity();
     for (float reach = cell; nearest > reach * reach && reach < 4 * diagonal; reach *= 2)
       grid.for_each_within(point, reach, [&nearest](std::uint32_t, float squared) {
         if (squared > 0) nearest = std::min(nearest, squared);
       });
-    if (std::isfinite(nearest)) distances.push_back(std::sqrt(nearest));
-  }
+    return std::sqrt(nearest);
+  };
+  std::vector<float> distances(chosen.size());
+  graph::parallel_for(chosen.size(), 32,
+                      [&](std::size_t i) { distances[i] = nearest_to(chosen[i]); });
+  std::erase_if(distances, [](float distance) { return !std::isfinite(distance); });
   return upper_median(std::move(distances));
 }
 

@@ -25,7 +25,7 @@ bool are_apart(const Claim& a, const Claim& b) {
 }
 
 std::vector<char> explained_by(const Claim& claim, const ScanState& scan) {
-  return explain_points(claim.model.cloud, claim.model_grid, claim.candidate.T_scene_model,
+  return explain_points(claim.model.cloud, claim.model_index, claim.candidate.T_scene_model,
                         scan.cloud.points, scan.cloud.normals, claim.tolerance);
 }
 

@@ -4,7 +4,7 @@
 // the side is.
 #pragma once
 
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/near_surface.hpp"
 #include "nodes/poses/candidate.hpp"
 #include "nodes/poses/scan_state.hpp"
 
@@ -13,7 +13,7 @@ namespace posevote::poses {
 /// A pose, and within which distance a scan point is its [m].
 struct Claim {
   const Model& model;
-  const geometry::PointGrid& model_grid;  ///< of its points
+  const geometry::SurfaceIndex& model_index;  ///< of its points
   const Candidate& candidate;
   float tolerance;
 };

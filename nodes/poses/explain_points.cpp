@@ -2,7 +2,6 @@
 #include "nodes/poses/explain_points.hpp"
 
 #include "graph/parallel.hpp"
-#include "nodes/geometry/near_surface.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -25,7 +24,7 @@ Ball enclosing_ball(const PointMatrix& points, float margin) {
 
 }  // namespace
 
-std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& model_grid,
+std::vector<char> explain_points(const Cloud& model, const geometry::SurfaceIndex& model_index,
                                  const Eigen::Isometry3d& T_scene_model, const PointMatrix& points,
                                  const PointMatrix& normals, float distance) {
   const Eigen::Isometry3f T_model_scene = T_scene_model.inverse().cast<float>();
@@ -33,7 +32,7 @@ std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& 
   const Eigen::Vector3f center = T_scene_model.cast<float>() * ball.center;
   std::vector<char> explained(static_cast<std::size_t>(points.rows()), 0);
   graph::parallel_ranges(explained.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    geometry::NearSurface surface(model, model_grid);
+    geometry::NearSurface surface(model, model_index);
     for (std::size_t i = begin; i < end; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       if (!((points.row(row).transpose() - center).squaredNorm() <= ball.squared_radius)) continue;
@@ -42,8 +41,8 @@ std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& 
           T_model_scene.linear() * Eigen::Vector3f(normals.row(row).transpose());
       // Any model point of the right side will do: of a thin wall the wrong side may be the nearer
       // one.
-      explained[i] = static_cast<char>(surface.is_near(point, normal, distance, 0.5F * distance,
-                                                       [](float cosine) { return cosine > 0; }));
+      explained[i] = static_cast<char>(
+          surface.is_near(point, normal, distance, [](float cosine) { return cosine > 0; }));
     }
   });
   return explained;

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/near_surface.hpp"
 
 namespace posevote::poses {
 
 /// Per row of `points`: 1 if a point of `model` lies within `distance` [m] once the model is posed,
-/// and their normals are less than 90 deg apart. `model_grid` holds the model's points.
-std::vector<char> explain_points(const Cloud& model, const geometry::PointGrid& model_grid,
+/// and their normals are less than 90 deg apart. `model_index` holds the model's points.
+std::vector<char> explain_points(const Cloud& model, const geometry::SurfaceIndex& model_index,
                                  const Eigen::Isometry3d& T_scene_model, const PointMatrix& points,
                                  const PointMatrix& normals, float distance);
 

@@ -31,7 +31,7 @@ bool propose(const Searches& searches) {
 
 /// What a search has to offer is claimed as far as what is supported.
 Claim claim_of(const ObjectSearch& search) {
-  return {search.model(), search.model_grid(), *search.best(), search.params().tolerance};
+  return {search.model(), search.model_index(), *search.best(), search.params().tolerance};
 }
 
 ObjectSearch* most_confident(const Searches& searches) {

@@ -26,7 +26,7 @@ class ObjectSearch {
   ObjectSearch(const Sought& sought, Proposals proposals);
 
   const Model& model() const { return sought_.model; }
-  const geometry::PointGrid& model_grid() const { return *sought_.model_grid; }
+  const geometry::SurfaceIndex& model_index() const { return *sought_.model_index; }
   const InstanceParams& params() const { return sought_.params; }
   /// The best pose when last asked for; none where all were below the threshold. Its `seconds`: how
   /// long this search has worked since its instance before.

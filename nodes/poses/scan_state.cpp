@@ -36,12 +36,12 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {
   ++takes;
-  const geometry::PointGrid grid(model.cloud.points, distance);
+  const geometry::SurfaceIndex index(model.cloud.points, distance);
   const std::vector<char> points =
-      explain_points(model.cloud, grid, T_scene_model, cloud.points, cloud.normals, distance);
+      explain_points(model.cloud, index, T_scene_model, cloud.points, cloud.normals, distance);
   surface.take_out(points);
-  const std::vector<char> now =
-      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
+  const std::vector<char> now = explain_points(model.cloud, index, T_scene_model, features.points,
+                                               features.normals, distance);
   for (std::size_t i = 0; i < now.size(); ++i)
     feature_explained[i] = static_cast<char>(feature_explained[i] | now[i]);
   Eigen::AlignedBox3d& gone = gone_.emplace_back();
@@ -73,11 +73,11 @@ double ScanState::range_of(const Model& model, const Eigen::Isometry3d& T_scene_
   return (posed_center(T_scene_model, model.center) - cloud.view.origin.cast<double>()).norm();
 }
 
-std::size_t ScanState::count_explained(const Model& model, const geometry::PointGrid& grid,
+std::size_t ScanState::count_explained(const Model& model, const geometry::SurfaceIndex& index,
                                        const Eigen::Isometry3d& T_scene_model, float distance,
                                        const std::vector<Octave>& octaves) const {
-  const std::vector<char> now =
-      explain_points(model.cloud, grid, T_scene_model, features.points, features.normals, distance);
+  const std::vector<char> now = explain_points(model.cloud, index, T_scene_model, features.points,
+                                               features.normals, distance);
   std::size_t count = 0;
   for (const Octave& rows : octaves)
     for (std::size_t i = rows.begin; i < rows.end; ++i)

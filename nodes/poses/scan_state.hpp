@@ -28,7 +28,7 @@ struct ScanState {
   void take_out(const Model& model, const Eigen::Isometry3d& T_scene_model, float distance);
   /// How many features of these octaves that nothing explained yet would a posed model explain.
   /// `grid`: of the model's points.
-  std::size_t count_explained(const Model& model, const geometry::PointGrid& grid,
+  std::size_t count_explained(const Model& model, const geometry::SurfaceIndex& index,
                               const Eigen::Isometry3d& T_scene_model, float distance,
                               const std::vector<Octave>& octaves) const;
   /// Whether points or features that were left when `takes` was `since` have gone, as far as these

@@ -22,7 +22,7 @@ Answer<Value> answer_at(const Sought& sought, const Eigen::Isometry3d& T_scene_m
 std::size_t count_explained(const Sought& sought, const Eigen::Isometry3d& T_scene_model) {
   return sought.memory->explained.get(sought.scan, {T_scene_model}, [&] {
     return answer_at(sought, T_scene_model, static_cast<double>(sought.params.tolerance),
-                     sought.scan.count_explained(sought.model, *sought.model_grid, T_scene_model,
+                     sought.scan.count_explained(sought.model, *sought.model_index, T_scene_model,
                                                  sought.params.tolerance, sought.voters));
   });
 }

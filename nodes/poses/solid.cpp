@@ -26,7 +26,7 @@ Solid::Solid(const Cloud& model, const Eigen::Isometry3d& T_scene_model, float d
       T_model_scene_(T_scene_model.inverse()),
       depth_(depth),
       box_(box_of(model.points)),
-      grid_(model.points, depth) {}
+      index_(model.points, depth) {}
 
 double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_other) const {
   const Eigen::Isometry3f T = (T_model_scene_ * T_scene_other).cast<float>();
@@ -44,21 +44,15 @@ double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_
 
 bool Solid::has_inside(const Eigen::Vector3f& point) const {
   if (!box_.contains(point)) return false;
-  const Eigen::Index row = nearest(point, depth_);
+  const Eigen::Index row = nearest(point);
   const Eigen::RowVector3f outward = model_.points.row(row) - point.transpose();
   return model_.normals.row(row).dot(outward) > depth_ && !is_sheet(row);
 }
 
-/// Most points that are asked for lie near the surface: looks `from` there, then farther.
-Eigen::Index Solid::nearest(const Eigen::Vector3f& point, float from) const {
-  Eigen::Index row = -1;
-  for (float radius = from, least = 0; row < 0; radius *= 2)
-    grid_.for_each_within(point, radius, [&](std::uint32_t i, float squared) {
-      if (row >= 0 && squared >= least) return;
-      row = i;
-      least = squared;
-    });
-  return row;
+/// Most points that are asked for lie near the surface: looks there first, then farther.
+Eigen::Index Solid::nearest(const Eigen::Vector3f& point) const {
+  for (float radius = depth_;; radius *= 2)
+    if (const auto found = index_.nearest.nearest(point, radius)) return found->index;
 }
 
 bool Solid::is_sheet(Eigen::Index row) const {
@@ -66,7 +60,7 @@ bool Solid::is_sheet(Eigen::Index row) const {
   const auto looks_back = [&](std::uint32_t i, float) {
     return model_.normals.row(row).dot(model_.normals.row(static_cast<Eigen::Index>(i))) < -kBack;
   };
-  return grid_.find_within(point, depth_, looks_back).has_value();
+  return index_.grid.find_within(point, depth_, looks_back).has_value();
 }
 
 }  // namespace posevote::poses

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/near_surface.hpp"
 
 namespace posevote::poses {
 
@@ -21,14 +21,14 @@ class Solid {
 
  private:
   bool has_inside(const Eigen::Vector3f& point) const;
-  Eigen::Index nearest(const Eigen::Vector3f& point, float from) const;
+  Eigen::Index nearest(const Eigen::Vector3f& point) const;
   bool is_sheet(Eigen::Index row) const;
 
   const Cloud& model_;
   Eigen::Isometry3d T_model_scene_;
   float depth_;
   Eigen::AlignedBox3f box_;
-  geometry::PointGrid grid_;
+  geometry::SurfaceIndex index_;
 };
 
 }  // namespace posevote::poses

@@ -52,8 +52,8 @@ struct Sought {
   double most_support = 1;  ///< of the poses that are compared
   Watch watch = {};         ///< empty: nobody wants to see
   double reach = reach_of(model);
-  std::shared_ptr<const geometry::PointGrid> model_grid =
-      std::make_shared<const geometry::PointGrid>(model.cloud.points, params.tolerance);
+  std::shared_ptr<const geometry::SurfaceIndex> model_index =
+      std::make_shared<const geometry::SurfaceIndex>(model.cloud.points, params.tolerance);
   std::shared_ptr<Memory> memory = std::make_shared<Memory>();
   /// Null where the scan has no colours to compare with.
   std::shared_ptr<const LookOf> look = scan.look.lab.rows() > 0

@@ -57,7 +57,7 @@ std::vector<Look> look_at(const Sightings& before, const ModelLibrary& library,
                          .scan = scan,
                          .params = poses::instance_params(before.params, model, scan.resolution),
                          .terms = before.params.terms,
-                         .model_grid = nullptr};  // it is for votes
+                         .model_index = nullptr};  // it is for votes
     looks.push_back({std::move(sought), one});
   }
   graph::parallel_for(looks.size(), 1, [&](std::size_t i) {
@@ -134,7 +134,7 @@ FeaturePoints unexplained(const Cloud& cloud, const FeaturePoints& points, const
     const float distance =
         poses::instance_params(seen.params, model, scale.resolution).explained_distance;
     const std::vector<char> by_it =
-        poses::explain_points(model.cloud, geometry::PointGrid(model.cloud.points, distance),
+        poses::explain_points(model.cloud, geometry::SurfaceIndex(model.cloud.points, distance),
                               one.candidate.T_scene_model, chosen.points, chosen.normals, distance);
     for (std::size_t i = 0; i < by_it.size(); ++i)
       explained[i] = static_cast<char>(explained[i] | by_it[i]);

@@ -41,8 +41,8 @@ double share_outside(const Model& model, const poses::ScanState& scan,
 
 std::vector<char> rows_on(const Model& model, const Eigen::Isometry3d& T_scene_model,
                           const PointMatrix& points, const PointMatrix& normals, float distance) {
-  const geometry::PointGrid grid(model.cloud.points, distance);
-  return poses::explain_points(model.cloud, grid, T_scene_model, points, normals, distance);
+  const geometry::SurfaceIndex index(model.cloud.points, distance);
+  return poses::explain_points(model.cloud, index, T_scene_model, points, normals, distance);
 }
 
 Seen look(const poses::Sought& sought, const Eigen::Isometry3d& T_scene_model) {

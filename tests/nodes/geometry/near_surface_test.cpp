@@ -21,11 +21,10 @@ Cloud strewn(Eigen::Index count) {
 
 TEST_CASE("whether a surface is near does not hang on where it was asked for before", "[segment]") {
   const Cloud cloud = strewn(500), ends = strewn(200);
-  const geometry::PointGrid grid(cloud.points, 0.1F);
+  const geometry::SurfaceIndex index(cloud.points, 0.1F);
   const float radius = GENERATE(0.03F, 0.12F);
-  const float probably = GENERATE(0.5F, 1.0F) * radius;
   const auto agrees = [](float cosine) { return cosine > 0.3F; };
-  geometry::NearSurface asked(cloud, grid);
+  geometry::NearSurface asked(cloud, index);
   int near = 0;
   constexpr Eigen::Index kSteps = 10;  // from one end to the next
   for (Eigen::Index k = 0; k < kSteps * (ends.points.rows() - 1); ++k) {
@@ -38,7 +37,7 @@ TEST_CASE("whether a surface is near does not hang on where it was asked for bef
     for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
       expected |= (cloud.points.row(i).transpose() - place).norm() <= radius &&
                   agrees(cloud.normals.row(i).dot(normal));
-    REQUIRE(asked.is_near(place, normal, radius, probably, agrees) == expected);
+    REQUIRE(asked.is_near(place, normal, radius, agrees) == expected);
     near += expected ? 1 : 0;
   }
   CHECK(near > 20);

@@ -16,8 +16,8 @@ constexpr float kDistance = 3 * kResolution;
 
 std::vector<char> explain(const Placed& body, const Cloud& scan) {
   const Cloud model = bumpy_model(body.shape)->cloud;
-  const geometry::PointGrid grid(model.points, kDistance);
-  return poses::explain_points(model, grid, body.T_scene_model, scan.points, scan.normals,
+  const geometry::SurfaceIndex index(model.points, kDistance);
+  return poses::explain_points(model, index, body.T_scene_model, scan.points, scan.normals,
                                kDistance);
 }
 
@@ -54,10 +54,10 @@ TEST_CASE("of a thin wall the far side does not stand before the near one", "[po
   PointMatrix point(1, 3), normal(1, 3);
   point << 0, 0, 0.002F;
   normal << 0, 0, -1;
-  const geometry::PointGrid grid(sheet.points, kDistance);
+  const geometry::SurfaceIndex index(sheet.points, kDistance);
   const auto identity = Eigen::Isometry3d::Identity();
-  CHECK(poses::explain_points(sheet, grid, identity, point, normal, kDistance).front() == 1);
-  CHECK(poses::explain_points(sheet, grid, identity, point, normal, 0.0015F).front() == 0);
+  CHECK(poses::explain_points(sheet, index, identity, point, normal, kDistance).front() == 1);
+  CHECK(poses::explain_points(sheet, index, identity, point, normal, 0.0015F).front() == 0);
 }
 
 TEST_CASE("points that are not finite are never explained", "[poses]") {

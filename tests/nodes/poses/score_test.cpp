@@ -82,7 +82,7 @@ TEST_CASE("consensus is the share of the features there that had voted", "[poses
   const SoughtBody body({kBody});
   poses::Sought sought = body.sought();
   const auto features = static_cast<double>(body.scan.count_explained(
-      body.model, *sought.model_grid, beside(0), sought.params.tolerance, sought.voters));
+      body.model, *sought.model_index, beside(0), sought.params.tolerance, sought.voters));
   REQUIRE(features > 50);
   sought.votes_per_correspondence = 60;
   const auto consensus = [&](double support) {
