@@ -36,10 +36,10 @@ class NearSurface {
     };
     if (last_ && squared_distance(*last_, place) <= radius * radius && will_do(*last_, 0))
       return true;
-    const auto nearest = index_.nearest.nearest(place, radius);
+    const NearestPoint nearest = index_.nearest.nearest(place, radius);
     if (!nearest) return false;
-    const auto found = will_do(nearest->index, 0) ? std::optional(nearest->index)
-                                                  : index_.grid.find_within(place, radius, will_do);
+    const auto found = will_do(nearest.index, 0) ? std::optional(nearest.index)
+                                                 : index_.grid.find_within(place, radius, will_do);
     if (found) last_ = found;
     return found.has_value();
   }

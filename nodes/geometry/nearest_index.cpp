@@ -61,13 +61,17 @@ NearestIndex::NearestIndex(const PointMatrix& points, float distance) {
   for (std::uint32_t& count : begin_) count = std::exchange(sum, sum + count);
   begin_.push_back(sum);
   std::vector<std::uint32_t> next = begin_;
-  const std::size_t size = rows.size() + kGridPadding;
-  x_.assign(size, kNowhere), y_.assign(size, kNowhere), z_.assign(size, kNowhere);
-  index_.assign(size, kNone);
+  PointGroup none;
+  std::ranges::fill(none.x, kNowhere), std::ranges::fill(none.y, kNowhere);
+  std::ranges::fill(none.z, kNowhere), std::ranges::fill(none.index, kNone);
+  groups_.assign((rows.size() + kGroup - 1) / kGroup, none);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::uint32_t i = rows[k], at = next[cubes[k]]++;
-    x_[at] = points(i, 0), y_[at] = points(i, 1), z_[at] = points(i, 2);
-    index_[at] = i;
+    PointGroup& group = groups_[at / kGroup];
+    group.x[at % kGroup] = points(i, 0);
+    group.y[at % kGroup] = points(i, 1);
+    group.z[at % kGroup] = points(i, 2);
+    group.index[at % kGroup] = i;
   }
 }
 
@@ -113,8 +117,9 @@ std::uint32_t NearestIndex::claim(std::uint64_t key) {
 }
 
 void NearestIndex::hide(const std::vector<char>& hidden) {
-  for (std::size_t at = 0; at < index_.size(); ++at)
-    if (index_[at] != kNone && hidden[index_[at]] != 0) x_[at] = kNowhere;
+  for (PointGroup& group : groups_)
+    for (std::size_t at = 0; at < kGroup; ++at)
+      if (group.index[at] != kNone && hidden[group.index[at]] != 0) group.x[at] = kNowhere;
 }
 
 namespace {
@@ -160,10 +165,9 @@ class NearestIndex::Search {
       }
   }
 
-  std::optional<Neighbour> result() {
+  NearestPoint result() {
     look_up();
-    if (best_.index == kNone) return std::nullopt;
-    return Neighbour{best_.index, best_.squared};
+    return best_;
   }
 
  private:
@@ -171,12 +175,11 @@ class NearestIndex::Search {
 
   void look_up() {
     if (count_ == 0) return;
-    const PointColumns columns{index_.x_.data(), index_.y_.data(), index_.z_.data(),
-                               index_.index_.data()};
-    const NearestPoint found = nearest_in_runs(columns, runs_.data(), count_, center_, farthest_);
+    const NearestPoint found =
+        nearest_in_runs(index_.groups_.data(), runs_.data(), count_, center_, farthest_);
     count_ = 0;
-    const bool ties = best_.index != kNone && found.squared == best_.squared;
-    if (found.index == kNone || (ties && found.index > best_.index)) return;
+    const bool ties = best_ && found.squared == best_.squared;
+    if (!found || (ties && found.index > best_.index)) return;
     best_ = found;
     farthest_ = found.squared;
   }
@@ -189,9 +192,8 @@ class NearestIndex::Search {
   std::array<GridRun, kRuns> runs_;  // without values: to write them costs as much as a search
 };
 
-std::optional<Neighbour> NearestIndex::nearest(const Eigen::Vector3f& center,
-                                               float distance) const {
-  if (index_.empty() || !center.allFinite() || !(distance >= 0)) return std::nullopt;
+NearestPoint NearestIndex::nearest(const Eigen::Vector3f& center, float distance) const {
+  if (groups_.empty() || !center.allFinite() || !(distance >= 0)) return {};
   // A trifle more: only the distance decides who is in.
   const double reach = 1.000001 * static_cast<double>(distance) * per_edge_;
   const Span x = cubes_around(edges_from_low(center.x(), 0), reach);

@@ -10,19 +10,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/nearest_kernel.hpp"
 
 namespace posevote::geometry {
-
-/// A point near a query.
-struct Neighbour {
-  std::uint32_t index = 0;
-  float squared = 0;  ///< squared distance [m^2]
-};
 
 /// Safe to read from many threads. Points that are not finite are never found.
 class NearestIndex {
@@ -35,10 +28,10 @@ class NearestIndex {
   void hide(const std::vector<char>& hidden);
 
   /// The nearest point within `distance`; of several at one distance the one with the smallest index.
-  std::optional<Neighbour> nearest(const Eigen::Vector3f& center, float distance) const;
+  NearestPoint nearest(const Eigen::Vector3f& center, float distance) const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kNone = NearestPoint::kNone;
   class Search;
   struct Slot {
     std::uint64_t key = 0;
@@ -57,9 +50,7 @@ class NearestIndex {
 
   Eigen::Vector3f low_ = Eigen::Vector3f::Zero();  ///< of all points, but strays; lower is cube 0
   double per_edge_ = 1;                            ///< cubes in a metre
-  // The points, cube by cube, block by block, and behind them some that are none (PointColumns).
-  std::vector<float> x_, y_, z_;
-  std::vector<std::uint32_t> index_;
+  std::vector<PointGroup> groups_;                 ///< of the points, cube by cube, block by block
   std::vector<std::uint32_t> begin_;  ///< of each cube's points; behind the last the end of all
   std::vector<Slot> slots_;           ///< blocks; open addressing, a power of two
   std::uint32_t blocks_ = 0;

@@ -11,10 +11,10 @@ HWY_BEFORE_NAMESPACE();
 namespace posevote::geometry::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, 8>;  // as many as a run mostly has
+using Floats = hn::CappedTag<float, kGroup>;
 using Indices = hn::RebindToUnsigned<Floats>;
 
-NearestPoint nearest(const PointColumns& points, const GridRun* runs, std::size_t run_count,
+NearestPoint nearest(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
                      const float* center, float farthest) {
   const Floats d;
   const Indices u;
@@ -23,14 +23,17 @@ NearestPoint nearest(const PointColumns& points, const GridRun* runs, std::size_
   const auto none = hn::Set(u, NearestPoint{}.index);
   auto index = none;
   for (std::size_t r = 0; r < run_count; ++r)
-    for (std::size_t i = runs[r].begin; i < runs[r].end; i += hn::Lanes(d)) {
-      const auto dx = hn::Sub(hn::LoadU(d, points.x + i), cx);
-      const auto dy = hn::Sub(hn::LoadU(d, points.y + i), cy);
-      const auto dz = hn::Sub(hn::LoadU(d, points.z + i), cz);
+    for (std::size_t i = runs[r].begin / hn::Lanes(d) * hn::Lanes(d); i < runs[r].end;
+         i += hn::Lanes(d)) {
+      const PointGroup& group = groups[i / kGroup];
+      const std::size_t at = i % kGroup;
+      const auto dx = hn::Sub(hn::Load(d, group.x + at), cx);
+      const auto dy = hn::Sub(hn::Load(d, group.y + at), cy);
+      const auto dz = hn::Sub(hn::Load(d, group.z + at), cz);
       const auto squared = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
       // Without a branch for where none is near: it would be guessed wrong too often.
       const auto near = hn::Le(squared, least);
-      const auto here = hn::LoadU(u, points.index + i);
+      const auto here = hn::Load(u, group.index + at);
       const auto first = hn::Or(hn::RebindMask(u, hn::Lt(squared, least)), hn::Lt(here, index));
       const auto better = hn::And(hn::RebindMask(u, near), first);
       least = hn::IfThenElse(hn::RebindMask(d, better), squared, least);
@@ -52,9 +55,9 @@ namespace posevote::geometry {
 
 HWY_EXPORT(nearest);
 
-NearestPoint nearest_in_runs(const PointColumns& points, const GridRun* runs, std::size_t run_count,
+NearestPoint nearest_in_runs(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
                              const float* center, float farthest) {
-  return HWY_DYNAMIC_DISPATCH(nearest)(points, runs, run_count, center, farthest);
+  return HWY_DYNAMIC_DISPATCH(nearest)(groups, runs, run_count, center, farthest);
 }
 
 }  // namespace posevote::geometry

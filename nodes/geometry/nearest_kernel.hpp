@@ -9,22 +9,29 @@
 
 namespace posevote::geometry {
 
-/// Points as three arrays, with kGridPadding floats behind the last that may be read; one that has
-/// a coordinate that is not a number is never found.
-struct PointColumns {
-  const float *x, *y, *z;
-  const std::uint32_t* index;  ///< the point's own number
+constexpr std::size_t kGroup = 8;  ///< points
+
+/// Points that lie together in memory, two lines of it: most runs touch no more than two groups. A
+/// point that has a coordinate that is not a number is never found.
+struct alignas(128) PointGroup {
+  float x[kGroup], y[kGroup], z[kGroup];
+  std::uint32_t index[kGroup];  ///< the point's own number
 };
 
-/// The nearest of all points in some runs; what lies behind a run's end may be found, too.
+/// A point near a place, or none. In a register: std::optional would take twelve bytes.
 struct NearestPoint {
-  std::uint32_t index = 0xFFFFFFFF;  ///< that number if none
-  float squared = 0;                 ///< distance [m^2]
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  std::uint32_t index = kNone;
+  float squared = 0;  ///< distance [m^2]
+
+  explicit operator bool() const { return index != kNone; }
 };
 
-/// At most the square root of `farthest` away; of several at one distance the one with the smallest
-/// index.
-NearestPoint nearest_in_runs(const PointColumns& points, const GridRun* runs, std::size_t run_count,
+/// The nearest of all points in some runs, at most the square root of `farthest` away; of several at
+/// one distance the one with the smallest index. Those that share a group with a run may be found,
+/// too.
+NearestPoint nearest_in_runs(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
                              const float* center, float farthest);
 
 }  // namespace posevote::geometry

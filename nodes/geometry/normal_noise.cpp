@@ -95,11 +95,13 @@ void add_tilts(const Normals& normals, const CubeNormal& of, std::vector<float>&
 }
 
 std::vector<float> tilts_of(const Normals& normals) {
-  return joined_ranges(normals.size(), [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kGrain = 256;  // each asks for six others
+  const auto of_range = [&](std::size_t begin, std::size_t end) {
     std::vector<float> tilts;
     for (std::size_t i = begin; i < end; ++i) add_tilts(normals, normals[i], tilts);
     return tilts;
-  });
+  };
+  return joined_ranges(normals.size(), of_range, kGrain);
 }
 
 }  // namespace

@@ -12,11 +12,10 @@
 namespace posevote::geometry {
 
 /// What make(begin, end) returns of the ranges that [0, count) falls into, a vector each, one behind
-/// the other in their order.
+/// the other in their order. `grain`: how long ranges are at least.
 template <class Make>
-auto joined_ranges(std::size_t count, const Make& make) {
-  constexpr std::size_t kGrain = 8192;
-  const std::size_t pieces = count / kGrain + 1;
+auto joined_ranges(std::size_t count, const Make& make, std::size_t grain = 8192) {
+  const std::size_t pieces = count / grain + 1;
   std::vector<decltype(make(count, count))> parts(pieces);
   graph::parallel_for(pieces, 1, [&](std::size_t p) {
     parts[p] = make(p * count / pieces, (p + 1) * count / pieces);

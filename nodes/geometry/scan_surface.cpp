@@ -68,32 +68,30 @@ float ScanSurface::facing_cosine(const OrientedPoint& p) const {
   return cosine > facing_cosine_ ? cosine : 0;
 }
 
-std::optional<Neighbour> ScanSurface::nearest_left(const Eigen::Vector3f& point,
-                                                   float distance) const {
+NearestPoint ScanSurface::nearest_left(const Eigen::Vector3f& point, float distance) const {
   // What is found within reach spares a look at all that is farther.
-  const auto near = near_.nearest(point, std::min(distance, reach_));
+  const NearestPoint near = near_.nearest(point, std::min(distance, reach_));
   return near || distance <= reach_ ? near : far_.nearest(point, distance);
 }
 
 std::optional<OrientedPoint> ScanSurface::nearest_compatible(const OrientedPoint& p,
                                                              float distance) const {
-  const std::optional<std::uint32_t> found = compatible(p, distance);
+  const NearestPoint found = compatible(p, distance);
   if (!found) return std::nullopt;
-  return points_[*found];
+  return points_[found.index];
 }
 
 std::optional<Eigen::Index> ScanSurface::compatible_row(const OrientedPoint& p,
                                                         float distance) const {
-  const std::optional<std::uint32_t> found = compatible(p, distance);
+  const NearestPoint found = compatible(p, distance);
   if (!found) return std::nullopt;
-  return rows_[*found];
+  return rows_[found.index];
 }
 
-std::optional<std::uint32_t> ScanSurface::compatible(const OrientedPoint& p, float distance) const {
-  const std::optional<Neighbour> nearest = nearest_left(p.point, distance);
-  if (!nearest || points_[nearest->index].normal.dot(p.normal) < normal_cosine_)
-    return std::nullopt;
-  return nearest->index;
+NearestPoint ScanSurface::compatible(const OrientedPoint& p, float distance) const {
+  const NearestPoint nearest = nearest_left(p.point, distance);
+  if (!nearest || points_[nearest.index].normal.dot(p.normal) < normal_cosine_) return {};
+  return nearest;
 }
 
 }  // namespace posevote::geometry

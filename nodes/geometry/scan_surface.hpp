@@ -51,13 +51,13 @@ class ScanSurface {
   std::optional<Eigen::Index> compatible_row(const OrientedPoint& p, float distance) const;
   /// Whether there is any within `distance`, whichever way it looks.
   bool is_near(const Eigen::Vector3f& point, float distance) const {
-    return nearest_left(point, distance).has_value();
+    return static_cast<bool>(nearest_left(point, distance));
   }
 
  private:
   /// Which of points_ is nearest, whichever way it looks; if it agrees, for `compatible`.
-  std::optional<Neighbour> nearest_left(const Eigen::Vector3f& point, float distance) const;
-  std::optional<std::uint32_t> compatible(const OrientedPoint& p, float distance) const;
+  NearestPoint nearest_left(const Eigen::Vector3f& point, float distance) const;
+  NearestPoint compatible(const OrientedPoint& p, float distance) const;
 
   std::vector<std::uint32_t> rows_;  // place by place: what is asked for together is read together
   std::vector<OrientedPoint> points_;  // those rows

@@ -17,11 +17,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
 #include "nodes/geometry/icp_pairs.hpp"
 #include "nodes/geometry/nearest_index.hpp"
+#include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -105,20 +107,29 @@ double noise_of(const Sought& sought, const std::vector<geometry::IcpPair>& pair
   const Eigen::Vector3f center = (T_scene_model * model.center.cast<double>()).cast<float>();
   const float radius = model.diagonal / 2 + reach;
   const Eigen::Matrix3d R_scene_model = T_scene_model.linear();
-  std::vector<double> off;
-  for (Eigen::Index i = 0; i < sought.scan.cloud.points.rows(); ++i) {
-    const Eigen::Vector3f point = sought.scan.cloud.points.row(i).transpose();
-    if (!((point - center).squaredNorm() < radius * radius)) continue;
-    const auto nearest = index.nearest(point, reach);
-    if (!nearest) continue;
-    const geometry::IcpPair& pair = pairs[nearest->index];
+  const auto height_of = [&](const Eigen::Vector3f& point) -> std::optional<double> {
+    if (!((point - center).squaredNorm() < radius * radius)) return std::nullopt;
+    const geometry::NearestPoint nearest = index.nearest(point, reach);
+    if (!nearest) return std::nullopt;
+    const geometry::IcpPair& pair = pairs[nearest.index];
     const Eigen::Vector3d normal =
         R_scene_model * model.cloud.normals.row(pair.row).transpose().cast<double>();
     const Eigen::Vector3d offset = point.cast<double>() - pair.point;
     const double height = offset.dot(normal);
-    if ((offset - height * normal).norm() < static_cast<double>(model.resolution))
-      off.push_back(std::abs(height));
-  }
+    if (!((offset - height * normal).norm() < static_cast<double>(model.resolution)))
+      return std::nullopt;
+    return std::abs(height);
+  };
+  const PointMatrix& scan = sought.scan.cloud.points;
+  const auto of_range = [&](std::size_t begin, std::size_t end) {
+    std::vector<double> heights;
+    for (std::size_t i = begin; i < end; ++i)
+      if (const auto height = height_of(scan.row(static_cast<Eigen::Index>(i)).transpose()))
+        heights.push_back(*height);
+    return heights;
+  };
+  std::vector<double> off =
+      geometry::joined_ranges(static_cast<std::size_t>(scan.rows()), of_range, 1024);
   if (off.empty()) return 0;
   constexpr double kNormal = 1.4826;  // of a normal distribution: deviation / median deviation
   const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);

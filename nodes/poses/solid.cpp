@@ -52,7 +52,7 @@ bool Solid::has_inside(const Eigen::Vector3f& point) const {
 /// Most points that are asked for lie near the surface: looks there first, then farther.
 Eigen::Index Solid::nearest(const Eigen::Vector3f& point) const {
   for (float radius = depth_;; radius *= 2)
-    if (const auto found = index_.nearest.nearest(point, radius)) return found->index;
+    if (const auto found = index_.nearest.nearest(point, radius)) return found.index;
 }
 
 bool Solid::is_sheet(Eigen::Index row) const {

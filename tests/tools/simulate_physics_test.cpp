@@ -48,7 +48,7 @@ double reach_into(const Body& body, const Body& other) {
   for (Eigen::Index v = 0; v < in_other.cols(); v += 400)
     if (winding_number(*other.mesh, in_other.col(v)) > 0.5)
       if (const auto near = surface.nearest(in_other.col(v).cast<float>(), 0.1F))
-        deepest = std::max(deepest, std::sqrt(double{near->squared}));
+        deepest = std::max(deepest, std::sqrt(double{near.squared}));
   return deepest;
 }
 

@@ -105,7 +105,7 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
       const Eigen::Vector3d point =
           instance.T_scene_model * object.points.row(i).transpose().cast<double>();
       if (const auto near = surface.nearest(point.cast<float>(), 0.02F))
-        distances.push_back(std::sqrt(near->squared));
+        distances.push_back(std::sqrt(near.squared));
     }
     REQUIRE(distances.size() > 500);
     std::sort(distances.begin(), distances.end());

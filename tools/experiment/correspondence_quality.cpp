@@ -52,7 +52,7 @@ CorrespondenceQuality CorrespondenceJudge::judge(const std::filesystem::path& cs
     inliers += (scene - columns.col(2)).norm() <= radius_;
     const auto near = index_.nearest(scene.cast<float>(), static_cast<float>(2 * radius_));
     if (!near) continue;
-    const Eigen::Vector3d truth = model_.normals.row(near->index).transpose().cast<double>();
+    const Eigen::Vector3d truth = model_.normals.row(near.index).transpose().cast<double>();
     if (truth.isZero()) continue;
     ++compared;
     degrees += std::atan2(normal.cross(truth).norm(), normal.dot(truth)) * 180 / std::numbers::pi;

@@ -14,17 +14,17 @@ namespace {
 
 constexpr float kReach = 0.01F;
 
-std::optional<geometry::Neighbour> by_brute_force(const PointMatrix& points,
-                                                  const Eigen::Vector3f& center, float distance,
-                                                  const std::vector<char>& hidden) {
-  std::optional<geometry::Neighbour> best;
+std::optional<geometry::NearestPoint> by_brute_force(const PointMatrix& points,
+                                                     const Eigen::Vector3f& center, float distance,
+                                                     const std::vector<char>& hidden) {
+  std::optional<geometry::NearestPoint> best;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const float dx = points(i, 0) - center.x(), dy = points(i, 1) - center.y(),
                 dz = points(i, 2) - center.z();
     const float squared = dx * dx + dy * dy + dz * dz;
     if (hidden[static_cast<std::size_t>(i)] || !(squared <= distance * distance)) continue;
     if (!best || squared < best->squared)
-      best = geometry::Neighbour{static_cast<std::uint32_t>(i), squared};
+      best = geometry::NearestPoint{static_cast<std::uint32_t>(i), squared};
   }
   return best;
 }
@@ -53,12 +53,12 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
     const auto expected = by_brute_force(points, center, distance, hidden);
     const auto got = near.nearest(center, distance);
     const auto left = surface.nearest_compatible({center, Eigen::Vector3f::UnitZ()}, distance);
-    REQUIRE(got.has_value() == expected.has_value());
+    REQUIRE(static_cast<bool>(got) == expected.has_value());
     REQUIRE(left.has_value() == expected.has_value());
     if (!got) continue;
     ++found;
-    CHECK(got->index == expected->index);
-    CHECK(got->squared == expected->squared);
+    CHECK(got.index == expected->index);
+    CHECK(got.squared == expected->squared);
     CHECK((left->point - center).squaredNorm() == Approx(expected->squared));
   }
   CHECK(found > 100);
@@ -98,7 +98,7 @@ TEST_CASE("an outlier far away costs no time, sparse points no memory", "[prepar
   // 4 GB if each had a block of its own.
   points = random_points(2000000, 1000, random);
   const geometry::NearestIndex sparse(points, kReach);
-  for (std::uint32_t i = 0; i < 1000; ++i) CHECK(sparse.nearest(points.row(i), kReach)->index == i);
+  for (std::uint32_t i = 0; i < 1000; ++i) CHECK(sparse.nearest(points.row(i), kReach).index == i);
 }
 
 TEST_CASE("nothing is near nothing", "[prepare]") {
