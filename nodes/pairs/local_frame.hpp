@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+
+#include "nodes/pairs/pair_limits.hpp"
 
 namespace posevote::pairs {
 
@@ -29,18 +30,16 @@ struct LocalFrame {
     return turn_of(u.dot(offset), v.dot(offset));
   }
 
-  /// atan2(y, x) in 256ths of a full turn, rounded down: a polynomial of 2e-4 rad (Hastings 1955),
-  /// five times as fast as the library's.
+  /// atan2(y, x) in 256ths of a full turn, rounded down: five times as fast as the library's.
   static std::uint8_t turn_of(float x, float y) {
     const float wide = std::max(std::abs(x), std::abs(y));
     const float ratio = wide > 0 ? std::min(std::abs(x), std::abs(y)) / wide : 0;
     const float s = ratio * ratio;
-    float angle = ((-0.0464964749F * s + 0.15931422F) * s - 0.327622764F) * s * ratio + ratio;
-    if (std::abs(y) > std::abs(x)) angle = static_cast<float>(std::numbers::pi / 2) - angle;
-    if (x < 0) angle = static_cast<float>(std::numbers::pi) - angle;
-    if (y < 0) angle = static_cast<float>(2 * std::numbers::pi) - angle;
-    return static_cast<std::uint8_t>(
-        static_cast<int>(angle * static_cast<float>(128 / std::numbers::pi)));
+    float angle = ((kTurnSeries[2] * s + kTurnSeries[1]) * s - kTurnSeries[0]) * s * ratio + ratio;
+    if (std::abs(y) > std::abs(x)) angle = static_cast<float>(kPi / 2) - angle;
+    if (x < 0) angle = static_cast<float>(kPi) - angle;
+    if (y < 0) angle = static_cast<float>(2 * kPi) - angle;
+    return static_cast<std::uint8_t>(static_cast<int>(angle * static_cast<float>(128 / kPi)));
   }
 
   /// Columns u, v, normal.

@@ -8,23 +8,36 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+
+#include "nodes/pairs/pair_limits.hpp"
 
 namespace posevote::pairs {
 
 inline constexpr int kAngleBins = 15;  ///< of 12 deg, as Drost et al. have them
 
-/// The bins of angles by their cosines, without an arc cosine for each: cosines that differ by less
-/// than 1/1024 share theirs.
-inline std::uint32_t angle_bin(float cosine) {
+/// A cosine's number among those that are told apart.
+inline std::int32_t angle_step(float cosine) {
+  return static_cast<std::int32_t>(
+      std::clamp((cosine + 1) * kCosineSteps, 0.0F, 2.0F * kCosineSteps));
+}
+
+/// The bins of angles by the angle_step of their cosines, without an arc cosine for each.
+inline std::uint32_t angle_bin(std::int32_t step) {
   static const auto bins = [] {
-    std::array<std::uint8_t, 2049> all{};
-    for (int i = 0; i <= 2048; ++i)
+    std::array<std::uint8_t, 2 * kCosineSteps + 1> all{};
+    for (int i = 0; i <= 2 * kCosineSteps; ++i)
       all[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
-          std::min(std::acos(i / 1024.0 - 1) * kAngleBins / std::numbers::pi, kAngleBins - 1.0));
+          std::min(std::acos(static_cast<double>(i) / kCosineSteps - 1) * kAngleBins / kPi,
+                   kAngleBins - 1.0));
     return all;
   }();
-  return bins[static_cast<std::size_t>(std::clamp((cosine + 1) * 1024, 0.0F, 2048.0F))];
+  return bins[static_cast<std::size_t>(step)];
+}
+
+/// Of the angle_steps of three angles.
+inline std::uint16_t angle_bins(std::int32_t from, std::int32_t to, std::int32_t between) {
+  return static_cast<std::uint16_t>((angle_bin(from) * kAngleBins + angle_bin(to)) * kAngleBins +
+                                    angle_bin(between));
 }
 
 /// The numbers of bins there are for pairs of points up to `reach` apart.
@@ -47,15 +60,12 @@ inline constexpr std::uint16_t kNoAngles = 0xFFFF;
 /// unit normal `to`, `offset` of this `length` away.
 inline std::uint16_t angle_bins(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
                                 const Eigen::Vector3f& offset, float length) {
-  constexpr float kInPlane = 0.15F;     // 9 deg
-  constexpr float kSameNormal = 0.96F;  // 16 deg
   const float along_from = from.dot(offset) / length;
   const float along_to = to.dot(offset) / length;
   const float between = from.dot(to);
   if (std::abs(along_from) < kInPlane && std::abs(along_to) < kInPlane && between > kSameNormal)
     return kNoAngles;
-  return static_cast<std::uint16_t>(
-      (angle_bin(along_from) * kAngleBins + angle_bin(along_to)) * kAngleBins + angle_bin(between));
+  return angle_bins(angle_step(along_from), angle_step(along_to), angle_step(between));
 }
 
 /// The bin of a pair of these angle_bins, `length` apart [m]; lengths are told in steps [m].

@@ -38,6 +38,10 @@ class PairTable {
   void fetch_start(std::uint32_t bin) const { __builtin_prefetch(&starts_[bin]); }
   void fetch_pairs(std::uint32_t bin) const { __builtin_prefetch(ends_.data() + starts_[bin]); }
 
+  /// Adds the run of a bin's ends for count_turns.
+  void add_all(std::uint32_t bin, std::uint8_t turn, std::vector<TurnedRun>& runs) const {
+    if (starts_[bin] < starts_[bin + 1]) runs.push_back({starts_[bin], starts_[bin + 1], turn});
+  }
   /// Adds runs of a bin's ends for count_turned, among them all whose turn is at most `most` off
   /// `turn`, of 256 in a circle, each once; `most` < 128.
   void add_turned(std::uint32_t bin, int turn, int most, std::vector<TurnedRun>& runs) const;

@@ -9,6 +9,7 @@
 #include "nodes/color/srgb.hpp"
 #include "nodes/pairs/color_step.hpp"
 #include "nodes/pairs/pair_key.hpp"
+#include "nodes/pairs/pairs_around.hpp"
 
 namespace posevote::pairs {
 namespace {
@@ -20,34 +21,56 @@ constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
 
 }  // namespace
 
-PairScene::PairScene(const Cloud& thin, float cell, int)
-    : grid_(thin.points, cell), has_colors_(thin.colors.rows() > 0) {
-  const PointMatrix lab = has_colors_ ? color::lab_of(thin.colors) : PointMatrix();
-  for (const std::uint32_t i : grid_.indices()) {
-    points_.push_back({thin.points.row(i).transpose(), thin.normals.row(i).transpose()});
-    if (has_colors_) points_.back().lab = lab.row(i).transpose();
-  }
+PairScene::PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
+  const auto count = static_cast<Eigen::Index>(grid_.size());
+  normals_.setZero(count + static_cast<Eigen::Index>(geometry::kGridPadding), 3);
+  normals_.topRows(count) = thin.normals(grid_.indices(), Eigen::all);
+  if (thin.colors.rows() > 0) lab_ = color::lab_of(thin.colors)(grid_.indices(), Eigen::all);
+}
+
+geometry::OrientedColumns PairScene::columns() const {
+  return {grid_.x(),
+          grid_.y(),
+          grid_.z(),
+          normals_.col(0).data(),
+          normals_.col(1).data(),
+          normals_.col(2).data()};
 }
 
 void PairVotes::go_to(const LocalFrame& at, const PairScene& scene, float reach) {
-  others_.clear();
-  labs_.clear();
+  scene.find_runs(at.point, reach, runs_);
+  std::size_t room = geometry::kGridPadding;
+  for (const geometry::GridRun& run : runs_) room += run.end - run.begin;
+  lengths_.resize(std::max(lengths_.size(), room));
+  numbers_.resize(std::max(numbers_.size(), 5 * room));
+  std::int32_t* numbers = numbers_.data();
+  const PairColumns found{lengths_.data(),    numbers,           numbers + room, numbers + 2 * room,
+                          numbers + 3 * room, numbers + 4 * room};
+  PairStart start{};
+  const auto set = [](float(&to)[3], const Eigen::Vector3f& from) {
+    Eigen::Vector3f::Map(to) = from;
+  };
+  set(start.point, at.point), set(start.normal, at.normal), set(start.u, at.u), set(start.v, at.v);
+  start.reach = reach;
+  start.keeps_all = scene.has_colors();
+  const std::size_t count = find_pairs(scene.columns(), runs_.data(), runs_.size(), start, found);
+
+  // The own colour is that of the nearest point.
   color_from_ = std::numeric_limits<float>::infinity();
   Eigen::Vector3f own_color = Eigen::Vector3f::Zero();
-  scene.for_each_within(at.point, reach, [&](const PairScene::Point& other) {
-    const Eigen::Vector3f offset = other.point - at.point;
-    const float length = offset.norm();
-    if (scene.has_colors() && length <= color_from_) {
-      color_from_ = length;
-      own_color = other.lab;
+  for (std::size_t k = 0; scene.has_colors() && k < count; ++k)
+    if (found.length[k] <= color_from_) {
+      color_from_ = found.length[k];
+      own_color = scene.lab().row(found.position[k]).transpose();
     }
-    if (!(length > 0)) return;
-    const std::uint16_t angles = angle_bins(at.normal, other.normal, offset, length);
-    if (angles == kNoAngles) return;
-    others_.push_back({length, angles, at.turn_to(offset), 0});
-    if (scene.has_colors()) labs_.push_back(other.lab);
-  });
-  for (std::size_t i = 0; i < labs_.size(); ++i) others_[i].color = color_step(own_color, labs_[i]);
+  others_.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (found.from[k] < 0) continue;
+    others_.push_back({found.length[k], angle_bins(found.from[k], found.to[k], found.between[k]),
+                       static_cast<std::uint8_t>(found.turn[k]), 0});
+    if (scene.has_colors())
+      others_.back().color = color_step(own_color, scene.lab().row(found.position[k]).transpose());
+  }
 }
 
 // Bins are all over the memory, so they are fetched before they are needed: their starts first, then
@@ -136,36 +159,41 @@ std::vector<PairPeak> PairVotes::peaks_of_points(double ratio) const {
   return peaks;
 }
 
-std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const PeakOptions& options) {
-  const std::size_t points = table.points().size();
-  std::vector<PairPeak> peaks;
-  if (options.turn == Turn::kOpen) {
-    counts_.assign(points * kTurns, 0);
-    const bool by_color = table.has_colors() && color_from_ <= 2 * table.step();
-    const auto extra = static_cast<std::uint16_t>(options.like_color - 1);
-    for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
-      const auto count_of = [&](PairEnd end) -> std::uint16_t& {
-        const auto off = static_cast<std::uint8_t>(turn - end.turn);
-        return counts_[end.point * kTurns + off / (256 / kTurns)];
-      };
-      if (!by_color) {
-        for (const PairEnd end : table[bin]) ++count_of(end);
-        return;
-      }
-      const LikeSteps& like = like_steps(color);
-      for (const PairEnd end : table[bin])
-        count_of(end) = static_cast<std::uint16_t>(count_of(end) + 1 + extra * like[end.color]);
-    });
-    peaks = peaks_of_turns(points, options.least_ratio);
-  } else {
-    counts_.assign(points, 0);
-    turned_.clear();
-    for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
+void PairVotes::count_by_color(const PairTable& table, std::uint16_t like_color) {
+  const auto extra = static_cast<std::uint16_t>(like_color - 1);
+  for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t color) {
+    const LikeSteps& like = like_steps(color);
+    for (const PairEnd end : table[bin]) {
+      const auto off = static_cast<std::uint8_t>(turn - end.turn);
+      std::uint16_t& count = counts_[end.point * kTurns + off / (256 / kTurns)];
+      count = static_cast<std::uint16_t>(count + 1 + extra * like[end.color]);
+    }
+  });
+}
+
+void PairVotes::count(const PairTable& table, const PeakOptions& options) {
+  const bool is_open = options.turn == Turn::kOpen;
+  counts_.assign(table.points().size() * (is_open ? kTurns : 1), 0);
+  if (is_open && table.has_colors() && color_from_ <= 2 * table.step())
+    return count_by_color(table, options.like_color);
+  turned_.clear();
+  for_each_pair(table, [&](std::uint32_t bin, std::uint8_t turn, std::uint8_t) {
+    if (is_open)
+      table.add_all(bin, turn, turned_);
+    else
       table.add_turned(bin, turn, kSameTurn, turned_);
-    });
+  });
+  if (is_open)
+    count_turns(table.ends(), turned_.data(), turned_.size(), counts_.data());
+  else
     count_turned(table.ends(), turned_.data(), turned_.size(), 2 * kSameTurn, counts_.data());
-    peaks = peaks_of_points(options.least_ratio);
-  }
+}
+
+std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const PeakOptions& options) {
+  count(table, options);
+  std::vector<PairPeak> peaks = options.turn == Turn::kOpen
+                                    ? peaks_of_turns(table.points().size(), options.least_ratio)
+                                    : peaks_of_points(options.least_ratio);
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const PairPeak& a, const PairPeak& b) { return a.pairs > b.pairs; });
   if (peaks.size() > options.poses) peaks.resize(options.poses);

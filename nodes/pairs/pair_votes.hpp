@@ -6,6 +6,7 @@
 
 #include "nodes/data/cloud.hpp"
 #include "nodes/geometry/grid.hpp"
+#include "nodes/geometry/oriented_columns.hpp"
 #include "nodes/pairs/pair_table.hpp"
 #include "nodes/pairs/thin_surface.hpp"
 
@@ -14,29 +15,27 @@ namespace posevote::pairs {
 /// A scan's surface, thin, to pair its points with.
 class PairScene {
  public:
-  struct Point {
-    Eigen::Vector3f point, normal;
-    Eigen::Vector3f lab = Eigen::Vector3f::Zero();  ///< where the scene has colours
-  };
-
   /// `edge`: of thin_surface [m].
   PairScene(const Cloud& scan, float edge) : PairScene(of_thin(thin_surface(scan, edge), edge)) {}
   /// Of points that are thin already, `edge` [m] apart.
   static PairScene of_thin(const Cloud& thin, float edge) { return {thin, 4 * edge, 0}; }
 
-  /// Calls visit(point) for each within `reach` [m].
-  template <class Visit>
-  void for_each_within(const Eigen::Vector3f& center, float reach, const Visit& visit) const {
-    grid_.for_each_position_within(center, reach, [&](std::size_t i, float) { visit(points_[i]); });
+  /// Sets `runs` to runs of points that hold all those within `reach` [m], and some others.
+  void find_runs(const Eigen::Vector3f& center, float reach,
+                 std::vector<geometry::GridRun>& runs) const {
+    grid_.find_runs(center, center, reach, runs);
   }
-  bool has_colors() const { return has_colors_; }
+  /// The points, in their order.
+  geometry::OrientedColumns columns() const;
+  bool has_colors() const { return lab_.rows() > 0; }
+  /// CIELAB of each of the points, if has_colors().
+  const PointMatrix& lab() const { return lab_; }
 
  private:
   PairScene(const Cloud& thin, float cell, int);
 
   geometry::PointGrid grid_;
-  std::vector<Point> points_;  ///< in the grid's order
-  bool has_colors_ = false;
+  PointMatrix normals_, lab_;  ///< in the grid's order; normals are padded
 };
 
 /// A pose under which many pairs agree: the model's point lies in the scan's, normal on normal, and
@@ -71,12 +70,13 @@ class PairVotes {
   std::vector<PairPeak> peaks(const PairTable& table, const PeakOptions& options);
 
  private:
-  static constexpr std::uint32_t kTurns = 32;
-
   /// Calls visit(bin, turn, color) for each kind of pair that the scan has about the point, the turn
   /// about it at which it has it, and, where it knows the point's own colour, the color_step.
   template <class Visit>
   void for_each_pair(const PairTable& table, const Visit& visit);
+  /// Fills counts_, per point of the table, and turn if it is open.
+  void count(const PairTable& table, const PeakOptions& options);
+  void count_by_color(const PairTable& table, std::uint16_t like_color);
   std::vector<PairPeak> peaks_of_turns(std::size_t points, double ratio);
   std::vector<PairPeak> peaks_of_points(double ratio) const;
   PairPeak peak_of(std::size_t point) const;
@@ -94,8 +94,10 @@ class PairVotes {
     std::uint8_t color = 0;
   };
 
+  std::vector<geometry::GridRun> runs_;  ///< of the scene's points, around the point
+  std::vector<float> lengths_;           ///< of the pairs found there, as PairColumns
+  std::vector<std::int32_t> numbers_;    ///< the other PairColumns
   std::vector<Other> others_;
-  std::vector<Eigen::Vector3f> labs_;   ///< of others, where the scene has colours
   float color_from_ = 0;                ///< how far away the point's own colour was seen [m]
   std::vector<Pair> pairs_;             ///< of the table, about the point
   std::vector<std::uint16_t> counts_;   ///< per point of the model, and turn if it is open

@@ -42,9 +42,9 @@ TEST_CASE("bins of angles are those of the arc cosine, but for rounding", "[pair
   for (int i = 0; i < 1800; ++i) {
     const double angle = (i + 0.5) * std::numbers::pi / 1800;
     const auto expected = static_cast<std::uint32_t>(angle * 15 / std::numbers::pi);
-    others += angle_bin(static_cast<float>(std::cos(angle))) != expected ? 1 : 0;
+    others += angle_bin(angle_step(static_cast<float>(std::cos(angle)))) != expected ? 1 : 0;
   }
   CHECK(others < 15);
-  CHECK(angle_bin(1.0001F) == 0);
-  CHECK(angle_bin(-1.0001F) == 14);
+  CHECK(angle_bin(angle_step(1.0001F)) == 0);
+  CHECK(angle_bin(angle_step(-1.0001F)) == 14);
 }
