@@ -7,6 +7,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/grid_normals.hpp"
+#include "nodes/geometry/sliding_runs.hpp"
 #include "nodes/geometry/voxels.hpp"
 #include "nodes/pairs/face_sums.hpp"
 
@@ -21,13 +22,12 @@ constexpr float kHalfDisc = 0.424F;  // how far off the mean of half a disc is: 
 constexpr float kLeastOff = 0.25F;   // that of a disc that is cut 0.3 from its centre
 constexpr float kComesIn = 0.55F;    // by which the mean comes in as the cut goes out
 
-/// At the grid's `i`-th point. `runs`: memory that is used anew for each.
-std::optional<Rim> rim_at(const geometry::PointGrid& grid, const geometry::OrientedColumns& all,
-                          std::size_t i, float radius, std::vector<geometry::GridRun>& runs) {
+/// At the grid's `i`-th point. `runs`: of the points within the radius.
+std::optional<Rim> rim_at(const geometry::OrientedColumns& all, std::size_t i, float radius,
+                          const std::vector<geometry::GridRun>& runs) {
   const Eigen::Vector3f point(all.x[i], all.y[i], all.z[i]);
   const Eigen::Vector3f normal(all.nx[i], all.ny[i], all.nz[i]);
   if (!normal.allFinite() || normal.isZero()) return std::nullopt;
-  grid.find_runs(point, point, radius, runs);
   const FaceSums sums = face_sums(all, runs.data(), runs.size(),
                                   {{point.x(), point.y(), point.z()},
                                    {normal.x(), normal.y(), normal.z()},
@@ -72,10 +72,13 @@ std::vector<Rim> find_rims(const Cloud& cloud, float radius) {
   const geometry::PointGrid grid(cloud.points, radius);
   const geometry::GridNormals normals(grid, cloud.normals, [](std::uint32_t) { return true; });
   std::vector<std::optional<Rim>> found(static_cast<std::size_t>(cloud.points.rows()));
-  graph::parallel_ranges(grid.size(), 256, [&](std::size_t begin, std::size_t end) {
-    std::vector<geometry::GridRun> runs;
-    for (std::size_t i = begin; i < end; ++i)
-      found[grid.indices()[i]] = rim_at(grid, normals.columns(), i, radius, runs);
+  const std::vector<geometry::GridRun> pieces = grid.pieces(radius);
+  graph::parallel_ranges(pieces.size(), 32, [&](std::size_t begin, std::size_t end) {
+    geometry::SlidingRuns around(grid, radius);
+    for (std::size_t p = begin; p < end; ++p)
+      around.for_each(pieces[p], [&](std::size_t i, const std::vector<geometry::GridRun>& runs) {
+        found[grid.indices()[i]] = rim_at(normals.columns(), i, radius, runs);
+      });
   });
   std::vector<Rim> rims;
   for (const auto& one : found)
