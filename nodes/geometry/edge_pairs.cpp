@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "graph/parallel.hpp"
-#include "nodes/geometry/near_surface.hpp"
 #include "nodes/geometry/outline.hpp"
 
 namespace posevote::geometry {
@@ -31,8 +30,8 @@ std::optional<float> length_of(const OrientedPoint& from, const Eigen::Vector3f&
 
 }  // namespace
 
-std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, float resolution,
-                                    int most) {
+std::vector<FaceEnd> find_face_ends(const Cloud& model, const SurfaceIndex& index,
+                                    const Outline& outline, float resolution, int most) {
   std::vector<FaceEnd> ends;
   if (most == 0 || outline.ends.empty()) return ends;
   std::vector<FaceEnd> ahead;  // the place is where the model is no more
@@ -43,7 +42,6 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, 
     });
   const auto wanted = static_cast<std::size_t>(most);
   const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
-  const SurfaceIndex index(model.points, resolution);
   const auto agree = [](float cosine) {
     return cosine >= static_cast<float>(SurfaceTerms{}.least_normal_cosine);
   };

@@ -11,6 +11,7 @@
 
 #include "nodes/data/model.hpp"
 #include "nodes/geometry/icp_pairs.hpp"
+#include "nodes/geometry/near_surface.hpp"
 #include "nodes/geometry/range_view.hpp"
 #include "nodes/geometry/scan_surface.hpp"
 
@@ -23,9 +24,9 @@ struct EdgeTerms {
   double spread = 1;  ///< by which an end is off, one deviation
 };
 
-/// At most so many, evenly strewn. `resolution`: of the model and of the scan [m].
-std::vector<FaceEnd> find_face_ends(const Cloud& model, const Outline& outline, float resolution,
-                                    int most);
+/// At most so many, evenly strewn. `index`: of the model's points. `resolution`: of the model and of the scan [m].
+std::vector<FaceEnd> find_face_ends(const Cloud& model, const SurfaceIndex& index,
+                                    const Outline& outline, float resolution, int most);
 
 /// The ends of a model's faces in a scan. Keeps references to all that it is given.
 class FaceEnds {

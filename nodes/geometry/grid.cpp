@@ -10,10 +10,6 @@
 namespace posevote::geometry {
 namespace {
 
-std::uint64_t key_of(std::int64_t y, std::int64_t z) {
-  return (static_cast<std::uint64_t>(z) << 32) | static_cast<std::uint32_t>(y);
-}
-
 struct Entry {
   std::uint64_t key;
   float x;
@@ -34,10 +30,11 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
   }
   origin_ = low;
   const double extent = (high.cast<double>() - low.cast<double>()).maxCoeff();
-  // Row numbers fill 32 bits of a key: a cell may not be finer than that (nor NaN, nor infinite).
+  // Two row numbers fill 60 bits of a key: a cell may not be finer than that (nor NaN, nor infinite).
   cell_ = std::max(
       {1e-9F, static_cast<float>(extent / 1e9), std::min(cell, static_cast<float>(extent))});
   last_row_ = std::floor(extent / cell_) + 1;
+  rows_ = static_cast<std::uint64_t>(last_row_) + 2;
 
   std::vector<Entry> entries(finite.size());
   graph::parallel_for(finite.size(), 8192, [&](std::size_t k) {

@@ -136,9 +136,14 @@ class PointGrid {
     return static_cast<std::int64_t>(std::clamp(cell, -1.0, last_row_ + 1.0));
   }
   GridRun find(std::int64_t y, std::int64_t z) const;
+  /// Of a rod, `y` and `z` below rows_: of as few bits as rods can be told by.
+  std::uint64_t key_of(std::int64_t y, std::int64_t z) const {
+    return static_cast<std::uint64_t>(z) * rows_ + static_cast<std::uint64_t>(y);
+  }
 
   float cell_ = 1;
   double last_row_ = 0;
+  std::uint64_t rows_ = 1;
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   std::vector<float> x_, y_, z_;  ///< padded
   std::vector<std::uint32_t> index_;

@@ -20,6 +20,8 @@ namespace posevote::geometry {
 /// Safe to read from many threads. Points that are not finite are never found.
 class NearestIndex {
  public:
+  /// Of no points.
+  NearestIndex() = default;
   /// `distance`: that is asked for most [m]; larger ones are answered, more slowly. Finds nothing if
   /// it is not above 0 or not finite.
   NearestIndex(const PointMatrix& points, float distance);

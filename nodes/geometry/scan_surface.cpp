@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/voxels.hpp"
@@ -38,9 +39,11 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
       single_view_(single_view),
       facing_cosine_(static_cast<float>(terms.least_facing_cosine)),
       normal_cosine_(static_cast<float>(terms.least_normal_cosine)),
-      reach_(reach),
-      near_(scan.points(rows_, Eigen::all), reach),
-      far_(scan.points(rows_, Eigen::all), kFarther * reach) {
+      reach_(reach) {
+  const PointMatrix places = scan.points(rows_, Eigen::all);
+  graph::parallel_for(2, 1, [&](std::size_t i) {
+    (i == 0 ? near_ : far_) = NearestIndex(places, i == 0 ? reach : kFarther * reach);
+  });
   points_.reserve(rows_.size());
   for (const std::uint32_t i : rows_) {
     points_.push_back({scan.points.row(i).transpose(), scan.normals.row(i).transpose()});

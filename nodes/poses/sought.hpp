@@ -38,6 +38,11 @@ struct InstanceParams {
 /// rounding.
 double reach_of(const Model& model);
 
+/// `radius`: that is asked for most [m].
+inline std::shared_ptr<const geometry::SurfaceIndex> index_of(const Model& model, float radius) {
+  return std::make_shared<const geometry::SurfaceIndex>(model.cloud.points, radius);
+}
+
 /// What is looked for, where, and by which rules.
 struct Sought {
   const Model& model;
@@ -52,8 +57,7 @@ struct Sought {
   double most_support = 1;  ///< of the poses that are compared
   Watch watch = {};         ///< empty: nobody wants to see
   double reach = reach_of(model);
-  std::shared_ptr<const geometry::SurfaceIndex> model_index =
-      std::make_shared<const geometry::SurfaceIndex>(model.cloud.points, params.tolerance);
+  std::shared_ptr<const geometry::SurfaceIndex> model_index = index_of(model, params.tolerance);
   std::shared_ptr<Memory> memory = std::make_shared<Memory>();
   /// Null where the scan has no colours to compare with.
   std::shared_ptr<const LookOf> look = scan.look.lab.rows() > 0

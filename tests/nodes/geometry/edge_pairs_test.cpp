@@ -17,7 +17,8 @@ struct Carton : FlatCarton {
     const geometry::RangeView view(scan, kStep);
     const geometry::ScanSurface surface(scan, view.usable(), 4 * kStep);
     const Outline outline = geometry::outline_of(model, 9 * kStep, 4 * kStep);
-    const auto places = geometry::find_face_ends(model, outline, kStep, ends);
+    const auto places =
+        geometry::find_face_ends(model, {model.points, kStep}, outline, kStep, ends);
     const geometry::FaceEnds faces(model, places, surface, view, kStep, {.ends = ends});
     return geometry::icp(
         model, surface, start, {40, 2 * kStep, 2 * kStep, 10000}, {},
@@ -52,7 +53,8 @@ TEST_CASE("ends hold a face that lies ten spacings off, too", "[segment]") {
 TEST_CASE("at most so many ends of a face are found, evenly strewn", "[segment]") {
   const Carton carton;
   const Outline outline = geometry::outline_of(carton.model, 9 * kStep, 4 * kStep);
-  const auto ends = geometry::find_face_ends(carton.model, outline, kStep, 80);
+  const auto ends =
+      geometry::find_face_ends(carton.model, {carton.model.points, kStep}, outline, kStep, 80);
   CHECK(ends.size() > 40);
   CHECK(ends.size() <= 80);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -63,7 +65,8 @@ TEST_CASE("at most so many ends of a face are found, evenly strewn", "[segment]"
     sum += end.direction;
   }
   CHECK(sum.norm() < 0.2F * static_cast<float>(ends.size()));  // on all sides
-  CHECK(geometry::find_face_ends(carton.model, outline, kStep, 0).empty());
+  CHECK(geometry::find_face_ends(carton.model, {carton.model.points, kStep}, outline, kStep, 0)
+            .empty());
 }
 
 TEST_CASE("what ends behind something nearer does not hold a face", "[segment]") {
