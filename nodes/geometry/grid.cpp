@@ -70,7 +70,8 @@ std::vector<GridRun> PointGrid::pieces(float length) const {
   std::vector<GridRun> pieces;
   for (const Slot& slot : slots_)
     for (std::uint32_t begin = slot.rod.begin, end = begin; begin < slot.rod.end; begin = end) {
-      while (end < slot.rod.end && x_[end] - x_[begin] <= length) ++end;
+      do ++end;
+      while (end < slot.rod.end && x_[end] - x_[begin] <= length);
       pieces.push_back({begin, end});
     }
   return pieces;

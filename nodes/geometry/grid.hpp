@@ -76,7 +76,7 @@ class PointGrid {
   const float* z() const { return z_.data(); }
   const std::vector<std::uint32_t>& indices() const { return index_; }  ///< of the cloud, each
 
-  /// Cuts the rods into runs of at most `length` [m] along x; `length` >= 0.
+  /// Cuts the rods into runs of at most `length` [m] along x; of one point each where it is not >= 0.
   std::vector<GridRun> pieces(float length) const;
 
  private:

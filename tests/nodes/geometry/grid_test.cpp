@@ -149,4 +149,5 @@ TEST_CASE("PointGrid's pieces are short and hold each point once", "[prepare]") 
     for (std::uint32_t i = piece.begin; i < piece.end; ++i) ++times[i];
   }
   CHECK(std::count(times.begin(), times.end(), 1) == 3000);
+  for (const float length : {-1.0F, std::nanf("")}) CHECK(grid.pieces(length).size() == 3000);
 }

@@ -42,8 +42,8 @@ TEST_CASE("every pair of a model's points is in its bin, from both ends", "[pair
 }
 
 TEST_CASE("of a bin, those with about one turn are counted around the circle", "[pairs]") {
-  for (const float step : {0.02F, 0.08F}) {  // few ends a bin; many, which are searched
-    const pairs::PairTable table(ball(step < 0.05F ? 60 : 2000), step, 0.1F);
+  for (const float step : {0.002F, 0.02F}) {  // few ends a bin; many, which are searched
+    const pairs::PairTable table(ball(step < 0.01F ? 20 : 60), step, 0.1F);
     std::size_t found = 0, largest = 0;
     for (std::uint32_t bin = 0; bin < table.bins(); ++bin)
       for (const int turn : {0, 5, 100, 250, 255}) {
@@ -59,8 +59,23 @@ TEST_CASE("of a bin, those with about one turn are counted around the circle", "
         largest = std::max(largest, table[bin].size());
       }
     CHECK(found > 100);
-    CHECK((largest > 64) == (step > 0.05F));
+    CHECK((largest > 64) == (step > 0.01F));
   }
+}
+
+TEST_CASE("of a bin, all turns are counted, by how far the scan's is ahead", "[pairs]") {
+  const pairs::PairTable table(ball(60), 0.02F, 0.1F);
+  std::vector<std::uint16_t> expected(table.points().size() * pairs::kTurns, 0), counts = expected;
+  std::vector<pairs::TurnedRun> runs;
+  for (std::uint32_t bin = 0; bin < table.bins(); ++bin)
+    for (const int turn : {0, 5, 100, 250}) {
+      table.add_all(bin, static_cast<std::uint8_t>(turn), runs);
+      for (const pairs::PairEnd end : table[bin])
+        ++expected[end.point * pairs::kTurns +
+                   static_cast<std::size_t>((turn - end.turn) & 255) / 8];
+    }
+  pairs::count_turns(table.ends(), runs.data(), runs.size(), counts.data());
+  CHECK(counts == expected);
 }
 
 TEST_CASE("a table is of a thinned model", "[pairs]") {

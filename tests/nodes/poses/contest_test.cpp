@@ -40,9 +40,9 @@ struct Contest {
     other.confidence = of_part;
     other.T_scene_model.translation().x() = aside;
     constexpr float kTolerance = 2 * kSpacing;
-    const geometry::PointGrid whole_grid(all.cloud.points, kTolerance),
-        part_grid(part.cloud.points, kTolerance);
-    return goes_before({all, whole_grid, whole, kTolerance}, {part, part_grid, other, kTolerance},
+    const geometry::SurfaceIndex whole_index(all.cloud.points, kTolerance),
+        part_index(part.cloud.points, kTolerance);
+    return goes_before({all, whole_index, whole, kTolerance}, {part, part_index, other, kTolerance},
                        state);
   }
 };
