@@ -9,6 +9,16 @@
 
 namespace posevote::geometry {
 
+/// `normals`: in the grid's order, padded as its coordinates are.
+inline OrientedColumns columns_of(const PointGrid& grid, const PointMatrix& normals) {
+  return {grid.x(),
+          grid.y(),
+          grid.z(),
+          normals.col(0).data(),
+          normals.col(1).data(),
+          normals.col(2).data()};
+}
+
 /// The normals of a cloud in the order of its grid, as vector kernels want them. Refers to the grid.
 class GridNormals {
  public:
@@ -26,14 +36,7 @@ class GridNormals {
     });
   }
 
-  OrientedColumns columns() const {
-    return {grid_.x(),
-            grid_.y(),
-            grid_.z(),
-            normals_.col(0).data(),
-            normals_.col(1).data(),
-            normals_.col(2).data()};
-  }
+  OrientedColumns columns() const { return columns_of(grid_, normals_); }
 
  private:
   const PointGrid& grid_;

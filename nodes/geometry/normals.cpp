@@ -62,10 +62,9 @@ std::vector<std::uint32_t> oriented_rows(const PointMatrix& points, const PointM
 
 Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& view,
                     const ColorMatrix& colors) {
-  Cloud cloud{points, std::move(normals), view, colors};
-  const std::vector<std::uint32_t> kept = oriented_rows(cloud.points, cloud.normals);
-  if (std::ssize(kept) != points.rows()) return select_rows(cloud, kept);
-  return cloud;
+  const std::vector<std::uint32_t> kept = oriented_rows(points, normals);
+  if (std::ssize(kept) == points.rows()) return {points, std::move(normals), view, colors};
+  return {points(kept, Eigen::all), normals(kept, Eigen::all), view, select_if_any(colors, kept)};
 }
 
 void require_normals(const Cloud& cloud) {

@@ -28,15 +28,6 @@ PairScene::PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, ce
   if (thin.colors.rows() > 0) lab_ = color::lab_of(thin.colors)(grid_.indices(), Eigen::all);
 }
 
-geometry::OrientedColumns PairScene::columns() const {
-  return {grid_.x(),
-          grid_.y(),
-          grid_.z(),
-          normals_.col(0).data(),
-          normals_.col(1).data(),
-          normals_.col(2).data()};
-}
-
 void PairVotes::go_to(const LocalFrame& at, const PairScene& scene, float reach) {
   scene.find_runs(at.point, reach, runs_);
   std::size_t room = geometry::kGridPadding;

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
-#include "nodes/geometry/grid.hpp"
-#include "nodes/geometry/oriented_columns.hpp"
+#include "nodes/geometry/grid_normals.hpp"
 #include "nodes/pairs/pair_table.hpp"
 #include "nodes/pairs/thin_surface.hpp"
 
@@ -26,7 +25,7 @@ class PairScene {
     grid_.find_runs(center, center, reach, runs);
   }
   /// The points, in their order.
-  geometry::OrientedColumns columns() const;
+  geometry::OrientedColumns columns() const { return geometry::columns_of(grid_, normals_); }
   bool has_colors() const { return lab_.rows() > 0; }
   /// CIELAB of each of the points, if has_colors().
   const PointMatrix& lab() const { return lab_; }

@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
 #include "nodes/geometry/normals.hpp"
@@ -88,12 +89,12 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
   const bool is_colored = cloud.colors.rows() > 0;
   Cloud out{PointMatrix(count, 3), PointMatrix(count, 3), cloud.view,
             ColorMatrix(is_colored ? count : 0, 3)};
-  for (std::size_t i = 0; i < groups.size(); ++i) {
+  graph::parallel_for(groups.size(), 2048, [&](std::size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
     out.points.row(row) = (groups[i].points / groups[i].count).cast<float>();
     out.normals.row(row) = groups[i].normals.normalized().cast<float>();
     if (is_colored) out.colors.row(row) = (groups[i].colors / groups[i].count).cast<float>();
-  }
+  });
   return out;
 }
 

@@ -48,19 +48,24 @@ std::string check(const Params& params) {
 
 constexpr float kSpacings = 6;  ///< fewest of the points' own distances in a radius
 
-/// Fills the rows that are still zero.
-void fill(PointMatrix& normals, const PointMatrix& with) {
+/// Fills the rows that are still zero; all if there are none.
+void fill(PointMatrix& normals, PointMatrix with) {
+  if (with.rows() == 0) return;
+  if (normals.rows() == 0) {
+    normals = std::move(with);
+    return;
+  }
   graph::parallel_for(static_cast<std::size_t>(normals.rows()), 8192, [&](std::size_t row) {
     const auto i = static_cast<Eigen::Index>(row);
     if (normals.row(i).isZero()) normals.row(i) = with.row(i);
   });
 }
 
-/// Whether most of the normals roughly agree with the planes.
+/// Whether most of the normals roughly agree with the planes, if there are any.
 bool agree(const PointMatrix& normals, const PointMatrix& planes) {
   std::ptrdiff_t both = 0;
   std::ptrdiff_t close = 0;
-  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+  for (Eigen::Index i = 0; i < planes.rows(); ++i) {
     if (normals.row(i).isZero() || planes.row(i).isZero()) continue;
     ++both;
     if (std::abs(normals.row(i).dot(planes.row(i))) > 0.966F) ++close;  // cos 15 deg
@@ -69,7 +74,6 @@ bool agree(const PointMatrix& normals, const PointMatrix& planes) {
 }
 
 PointMatrix file_normals(const Scan& scan) {
-  if (scan.normals.rows() == 0) return PointMatrix::Zero(scan.points.rows(), 3);
   if (scan.normals.rows() != scan.points.rows())
     throw std::runtime_error("it has " + std::to_string(scan.normals.rows()) + " normals for " +
                              std::to_string(scan.points.rows()) + " points");
@@ -85,7 +89,9 @@ PointMatrix neighbour_planes(const Scan& scan, float smallest, const Params& par
   return planes ? planes->normals(params.min_neighbours) : PointMatrix::Zero(scan.points.rows(), 3);
 }
 
-bool complete(const PointMatrix& normals) {
+/// Whether each point has one.
+bool complete(const Scan& scan, const PointMatrix& normals) {
+  if (normals.rows() != scan.points.rows()) return false;
   for (Eigen::Index i = 0; i < normals.rows(); ++i)
     if (normals.row(i).isZero()) return false;
   return true;
@@ -96,17 +102,18 @@ PointMatrix scan_normals(const Scan& scan, float smallest, const Params& params)
   const auto uses = [&params](const char* source) {
     return params.source == "auto" || params.source == source;
   };
-  PointMatrix normals = PointMatrix::Zero(scan.points.rows(), 3);
-  if (uses("file")) normals = file_normals(scan);
-  if (!complete(normals) && (uses("faces") || uses("pca"))) {
-    PointMatrix planes = PointMatrix::Zero(scan.points.rows(), 3);
+  PointMatrix normals;  // none yet
+  if (uses("file") && scan.normals.rows() > 0) normals = file_normals(scan);
+  if (!complete(scan, normals) && (uses("faces") || uses("pca"))) {
+    PointMatrix planes;
     if (uses("pca")) planes = neighbour_planes(scan, smallest, params);
     if (uses("faces") && scan.faces.rows() > 0) {
-      const PointMatrix by_faces = geometry::face_normals(scan.points, scan.faces);
-      if (agree(by_faces, planes)) fill(normals, by_faces);
+      PointMatrix by_faces = geometry::face_normals(scan.points, scan.faces);
+      if (agree(by_faces, planes)) fill(normals, std::move(by_faces));
     }
-    fill(normals, planes);
+    fill(normals, std::move(planes));
   }
+  if (normals.rows() == 0) normals.setZero(scan.points.rows(), 3);
   geometry::turn_toward(scan.view.origin, scan.points, normals);
   return normals;
 }
