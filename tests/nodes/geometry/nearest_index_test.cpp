@@ -7,6 +7,7 @@
 #include <random>
 
 #include "nodes/geometry/scan_surface.hpp"
+#include "tests/support/instruction_set.hpp"
 
 using namespace posevote;
 
@@ -67,11 +68,15 @@ void check_against_brute_force(const PointMatrix& points, float spread, std::mt1
 }  // namespace
 
 TEST_CASE("the nearest point within a distance is that of brute force", "[prepare]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
   std::mt19937 random(1);
   check_against_brute_force(random_points(3000, 0.05F, random), 0.06F, random);
 }
 
 TEST_CASE("points on a raster, where distances and cubes tie", "[prepare]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
   std::mt19937 random(2);
   PointMatrix points = random_points(2000, 0.03F, random);
   points = (points / kReach * 4).array().round().matrix() * (kReach / 4);

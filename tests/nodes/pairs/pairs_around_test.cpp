@@ -6,6 +6,7 @@
 
 #include "nodes/pairs/pair_key.hpp"
 #include "nodes/pairs/pair_votes.hpp"
+#include "tests/support/instruction_set.hpp"
 #include "tests/support/shapes.hpp"
 
 using namespace posevote;
@@ -47,6 +48,8 @@ struct Found {
 }  // namespace
 
 TEST_CASE("pairs that are found many at once are those of one at a time, to the bit", "[pairs]") {
+  const test::OnInstructionSet there(GENERATE(from_range(test::instruction_sets())));
+  if (!there) return;
   const Cloud cloud = strewn(600);
   const geometry::PointGrid grid(cloud.points, 0.04F);  // as the scene's
   const float reach = 0.07F;
