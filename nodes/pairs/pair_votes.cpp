@@ -185,9 +185,13 @@ std::vector<PairPeak> PairVotes::peaks(const PairTable& table, const PeakOptions
   std::vector<PairPeak> peaks = options.turn == Turn::kOpen
                                     ? peaks_of_turns(table.points().size(), options.least_ratio)
                                     : peaks_of_points(options.least_ratio);
-  std::stable_sort(peaks.begin(), peaks.end(),
-                   [](const PairPeak& a, const PairPeak& b) { return a.pairs > b.pairs; });
-  if (peaks.size() > options.poses) peaks.resize(options.poses);
+  // The best alone are sorted; each point has one peak at most.
+  const std::size_t kept = std::min(peaks.size(), options.poses);
+  std::partial_sort(peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(kept), peaks.end(),
+                    [](const PairPeak& a, const PairPeak& b) {
+                      return a.pairs != b.pairs ? a.pairs > b.pairs : a.point < b.point;
+                    });
+  peaks.resize(kept);
   while (!peaks.empty() && peaks.back().pairs < options.least_ratio * peaks.front().pairs)
     peaks.pop_back();
   return peaks;
