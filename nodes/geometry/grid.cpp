@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/cells.hpp"
 #include "nodes/geometry/radix_sort.hpp"
 
@@ -22,14 +23,10 @@ PointGrid::PointGrid(const PointMatrix& points, float cell) {
   const std::vector<std::uint32_t> finite = finite_rows(points);
   if (finite.empty()) return;
 
-  Eigen::Vector3f low = points.row(finite.front());
-  Eigen::Vector3f high = low;
-  for (const std::uint32_t i : finite) {
-    low = low.cwiseMin(points.row(i).transpose());
-    high = high.cwiseMax(points.row(i).transpose());
-  }
+  const Eigen::AlignedBox3f box = box_around(points, finite);
+  const Eigen::Vector3f low = box.min();
   origin_ = low;
-  const double extent = (high.cast<double>() - low.cast<double>()).maxCoeff();
+  const double extent = (box.max().cast<double>() - low.cast<double>()).maxCoeff();
   // Two row numbers fill 60 bits of a key: a cell may not be finer than that (nor NaN, nor infinite).
   cell_ = std::max(
       {1e-9F, static_cast<float>(extent / 1e9), std::min(cell, static_cast<float>(extent))});

@@ -9,7 +9,23 @@
 
 namespace posevote::geometry {
 
-/// `normals`: in the grid's order, padded as its coordinates are.
+/// A cloud's normals in its grid's order, padded as the grid's coordinates are. Those of which
+/// is_usable(row) is false are not numbers.
+template <class IsUsable>
+PointMatrix in_order_of(const PointGrid& grid, const PointMatrix& normals,
+                        const IsUsable& is_usable) {
+  const auto count = static_cast<Eigen::Index>(grid.size() + kGridPadding);
+  PointMatrix ordered = PointMatrix::Zero(count, 3);
+  graph::parallel_for(grid.size(), 4096, [&](std::size_t position) {
+    const auto row = static_cast<Eigen::Index>(position);
+    const std::uint32_t point = grid.indices()[position];
+    ordered.row(row) = normals.row(point);
+    if (!is_usable(point)) ordered.row(row).setConstant(std::nanf(""));
+  });
+  return ordered;
+}
+
+/// `normals`: in_order_of the grid.
 inline OrientedColumns columns_of(const PointGrid& grid, const PointMatrix& normals) {
   return {grid.x(),
           grid.y(),
@@ -25,16 +41,7 @@ class GridNormals {
   /// Those of which is_usable(row) is false are not numbers.
   template <class IsUsable>
   GridNormals(const PointGrid& grid, const PointMatrix& normals, const IsUsable& is_usable)
-      : grid_(grid) {
-    const auto count = static_cast<Eigen::Index>(grid.size());
-    normals_.setZero(count + static_cast<Eigen::Index>(kGridPadding), 3);
-    graph::parallel_for(grid.size(), 4096, [&](std::size_t position) {
-      const auto row = static_cast<Eigen::Index>(position);
-      const std::uint32_t point = grid.indices()[position];
-      normals_.row(row) = normals.row(point);
-      if (!is_usable(point)) normals_.row(row).setConstant(std::nanf(""));
-    });
-  }
+      : grid_(grid), normals_(in_order_of(grid, normals, is_usable)) {}
 
   OrientedColumns columns() const { return columns_of(grid_, normals_); }
 

@@ -9,7 +9,6 @@
 #include "nodes/color/srgb.hpp"
 #include "nodes/pairs/color_step.hpp"
 #include "nodes/pairs/pair_key.hpp"
-#include "nodes/pairs/pairs_around.hpp"
 
 namespace posevote::pairs {
 namespace {
@@ -21,11 +20,21 @@ constexpr std::uint16_t kFewestPairs = 3;  // of a pose without a turn to tell
 
 }  // namespace
 
-PairScene::PairScene(const Cloud& thin, float cell, int) : grid_(thin.points, cell) {
-  const auto count = static_cast<Eigen::Index>(grid_.size());
-  normals_.setZero(count + static_cast<Eigen::Index>(geometry::kGridPadding), 3);
-  normals_.topRows(count) = thin.normals(grid_.indices(), Eigen::all);
+PairScene::PairScene(const Cloud& thin, float cell, int)
+    : grid_(thin.points, cell),
+      normals_(geometry::in_order_of(grid_, thin.normals, [](std::uint32_t) { return true; })) {
   if (thin.colors.rows() > 0) lab_ = color::lab_of(thin.colors)(grid_.indices(), Eigen::all);
+}
+
+PairStart start_at(const LocalFrame& at, float reach, bool keeps_all) {
+  PairStart start{};
+  const auto set = [](float(&to)[3], const Eigen::Vector3f& from) {
+    Eigen::Vector3f::Map(to) = from;
+  };
+  set(start.point, at.point), set(start.normal, at.normal), set(start.u, at.u), set(start.v, at.v);
+  start.reach = reach;
+  start.keeps_all = keeps_all;
+  return start;
 }
 
 void PairVotes::go_to(const LocalFrame& at, const PairScene& scene, float reach) {
@@ -37,14 +46,8 @@ void PairVotes::go_to(const LocalFrame& at, const PairScene& scene, float reach)
   std::int32_t* numbers = numbers_.data();
   const PairColumns found{lengths_.data(),    numbers,           numbers + room, numbers + 2 * room,
                           numbers + 3 * room, numbers + 4 * room};
-  PairStart start{};
-  const auto set = [](float(&to)[3], const Eigen::Vector3f& from) {
-    Eigen::Vector3f::Map(to) = from;
-  };
-  set(start.point, at.point), set(start.normal, at.normal), set(start.u, at.u), set(start.v, at.v);
-  start.reach = reach;
-  start.keeps_all = scene.has_colors();
-  const std::size_t count = find_pairs(scene.columns(), runs_.data(), runs_.size(), start, found);
+  const std::size_t count = find_pairs(scene.columns(), runs_.data(), runs_.size(),
+                                       start_at(at, reach, scene.has_colors()), found);
 
   // The own colour is that of the nearest point.
   color_from_ = std::numeric_limits<float>::infinity();

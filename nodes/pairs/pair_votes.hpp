@@ -7,6 +7,7 @@
 #include "nodes/data/cloud.hpp"
 #include "nodes/geometry/grid_normals.hpp"
 #include "nodes/pairs/pair_table.hpp"
+#include "nodes/pairs/pairs_around.hpp"
 #include "nodes/pairs/thin_surface.hpp"
 
 namespace posevote::pairs {
@@ -36,6 +37,9 @@ class PairScene {
   geometry::PointGrid grid_;
   PointMatrix normals_, lab_;  ///< in the grid's order; normals are padded
 };
+
+/// What find_pairs starts from.
+PairStart start_at(const LocalFrame& at, float reach, bool keeps_all);
 
 /// A pose under which many pairs agree: the model's point lies in the scan's, normal on normal, and
 /// the model is turned about it.

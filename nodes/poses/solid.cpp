@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/box_around.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -12,20 +13,16 @@ namespace {
 constexpr Eigen::Index kSample = 500;
 constexpr float kBack = 0.7F;  // cosine, of a surface that looks the other way
 
-Eigen::AlignedBox3f box_of(const PointMatrix& points) {
-  Eigen::AlignedBox3f box;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    box.extend(Eigen::Vector3f(points.row(i).transpose()));
-  return box;
-}
-
 }  // namespace
 
 Solid::Solid(const Cloud& model, const Eigen::Isometry3d& T_scene_model, float depth)
     : model_(model),
       T_model_scene_(T_scene_model.inverse()),
       depth_(depth),
-      box_(box_of(model.points)),
+      box_(geometry::box_around(static_cast<std::size_t>(model.points.rows()),
+                                [&model](std::size_t i) -> Eigen::Vector3f {
+                                  return model.points.row(static_cast<Eigen::Index>(i)).transpose();
+                                })),
       index_(model.points, depth) {}
 
 double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_other) const {

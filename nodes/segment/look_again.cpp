@@ -57,7 +57,7 @@ std::vector<Look> look_at(const Sightings& before, const ModelLibrary& library,
                          .scan = scan,
                          .params = poses::instance_params(before.params, model, scan.resolution),
                          .terms = before.params.terms,
-                         .model_index = nullptr};  // it is for votes
+                         .model_index = nullptr};  // it is for votes, and seldom for ends
     looks.push_back({std::move(sought), one});
   }
   graph::parallel_for(looks.size(), 1, [&](std::size_t i) {

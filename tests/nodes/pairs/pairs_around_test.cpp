@@ -33,12 +33,8 @@ struct Found {
     const auto room = static_cast<std::size_t>(cloud.points.rows()) + geometry::kGridPadding;
     length.resize(room);
     for (auto* column : {&from, &to, &between, &turn, &position}) column->resize(room);
-    pairs::PairStart start{};
-    Eigen::Vector3f::Map(start.point) = at.point, Eigen::Vector3f::Map(start.normal) = at.normal;
-    Eigen::Vector3f::Map(start.u) = at.u, Eigen::Vector3f::Map(start.v) = at.v;
-    start.reach = reach, start.keeps_all = keeps_all;
     const std::size_t count = pairs::find_pairs(
-        scene.columns(), runs.data(), runs.size(), start,
+        scene.columns(), runs.data(), runs.size(), pairs::start_at(at, reach, keeps_all),
         {length.data(), from.data(), to.data(), between.data(), turn.data(), position.data()});
     length.resize(count);
     for (auto* column : {&from, &to, &between, &turn, &position}) column->resize(count);
