@@ -53,7 +53,4 @@ class PlaneFitter {
 std::optional<PlaneFitter> suitable_planes(const PointMatrix& points, float smallest,
                                            float spacings);
 
-/// The typical distance of a point to its nearest neighbour: the median over a sample [m].
-float point_spacing(const PointMatrix& points);
-
 }  // namespace posevote::geometry

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "graph/parallel.hpp"
-#include "nodes/geometry/plane_normals.hpp"
+#include "nodes/geometry/point_spacing.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {

@@ -24,9 +24,12 @@
 //   cast_votes: {in: [correspondences, scene_features], out: votes, rotations: 60}
 #include <Eigen/Geometry>
 #include <cmath>
+#include <complex>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
@@ -59,8 +62,8 @@ double start_angle(std::uint64_t seed, int obj_id, std::size_t correspondence) {
   return 2 * std::numbers::pi * std::ldexp(static_cast<double>(hash >> 11U), -53);
 }
 
-void set_vote(VoteSet& votes, std::size_t v, const Eigen::Vector3d& t,
-              const Eigen::Quaterniond& q) {
+/// `q`: x, y, z, w, as Eigen has them.
+void set_vote(VoteSet& votes, std::size_t v, const Eigen::Vector3d& t, const Eigen::Vector4d& q) {
   votes.tx[v] = static_cast<float>(t.x());
   votes.ty[v] = static_cast<float>(t.y());
   votes.tz[v] = static_cast<float>(t.z());
@@ -70,10 +73,21 @@ void set_vote(VoteSet& votes, std::size_t v, const Eigen::Vector3d& t,
   votes.qz[v] = static_cast<float>(q.z());
 }
 
+/// cos and sin of half of each turn from a circle's start.
+using HalfTurns = std::vector<std::complex<double>>;
+
+HalfTurns half_turns(std::uint32_t count) {
+  HalfTurns turns;
+  for (std::uint32_t k = 0; k < count; ++k)
+    turns.push_back(std::polar(1.0, std::numbers::pi * k / count));
+  return turns;
+}
+
 /// The circle of one correspondence into the slots from `first`. R_k is R_0 turned about n' by a_k,
 /// so its quaternion is a product and needs no matrix per vote.
 void cast_circle(const OrientedPoint& model, const Eigen::Vector3d& center,
-                 const OrientedPoint& scene, double start, std::size_t first, VoteSet& votes) {
+                 const OrientedPoint& scene, double start, const HalfTurns& turns,
+                 std::size_t first, VoteSet& votes) {
   const Eigen::Vector3d& n = model.normal;
   const Eigen::Vector3d& n_scene = scene.normal;
   const double delta = (model.point - center).dot(n);            // eq. 1
@@ -88,13 +102,16 @@ void cast_circle(const OrientedPoint& model, const Eigen::Vector3d& center,
   Eigen::Matrix3d model_frame, scene_frame;
   model_frame << e, n.cross(e), n;  // eq. 6
   scene_frame << u, v, n_scene;     // eq. 7 at a = 0
-  const Eigen::Quaterniond at_zero(Eigen::Matrix3d(scene_frame * model_frame.transpose()));
-  const double step = 2 * std::numbers::pi / votes.votes_per_correspondence;
-  for (std::uint32_t k = 0; k < votes.votes_per_correspondence; ++k) {
-    const double a = start + k * step;
-    const Eigen::Vector3d t = q + radius * (u * std::cos(a) + v * std::sin(a));  // eq. 4, 5
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(a, n_scene));
-    set_vote(votes, first + k, t, (turn * at_zero).normalized());
+  const Eigen::Quaterniond at_zero =
+      Eigen::Quaterniond(Eigen::Matrix3d(scene_frame * model_frame.transpose())).normalized();
+  // (cos a/2, n' sin a/2) times R_0, whose second part is the same for all.
+  const Eigen::Quaterniond turned =
+      Eigen::Quaterniond(0, n_scene.x(), n_scene.y(), n_scene.z()) * at_zero;
+  const std::complex<double> half_start = std::polar(1.0, start / 2);
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const std::complex<double> half = half_start * turns[k], whole = half * half;
+    const Eigen::Vector3d t = q + radius * (u * whole.real() + v * whole.imag());  // eq. 4, 5
+    set_vote(votes, first + k, t, half.real() * at_zero.coeffs() + half.imag() * turned.coeffs());
   }
 }
 
@@ -137,12 +154,13 @@ VoteSet cast_votes(const Correspondences& matches, const FeatureSet& scene,
   for (auto* column : {&votes.tx, &votes.ty, &votes.tz, &votes.qw, &votes.qx, &votes.qy, &votes.qz})
     column->resize(count);
   for (const std::uint32_t i : usable) votes.scene_feature.push_back(matches.scene_feature[i]);
+  const HalfTurns turns = half_turns(votes.votes_per_correspondence);
   graph::parallel_for(usable.size(), 64, [&](std::size_t slot) {
     const std::uint32_t i = usable[slot];
     cast_circle(oriented_point(model.features, matches.model_feature[i]), center,
                 oriented_point(scene, matches.scene_feature[i]),
-                start_angle(frame.seed, model.obj_id, i), slot * votes.votes_per_correspondence,
-                votes);
+                start_angle(frame.seed, model.obj_id, i), turns,
+                slot * votes.votes_per_correspondence, votes);
   });
   return votes;
 }
