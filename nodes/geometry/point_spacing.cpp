@@ -158,9 +158,9 @@ float point_spacing(const PointMatrix& points) {
   if (places.size() < 2) return 0;
   const float diagonal = middle_diagonal(places);
   std::vector<float> distances;
-  // At first one point would fill it if they filled the largest side of the box around most: far
-  // outliers must not set it.
-  float reach = diagonal / std::sqrt(static_cast<float>(all.rows()));
+  // At first half of what a point would fill if they filled the largest side of the box around
+  // most (far outliers must not set it): about what they are apart.
+  float reach = 0.5F * diagonal / std::sqrt(static_cast<float>(all.rows()));
   for (; !places.empty() && reach < 4 * diagonal; reach *= 2) {
     const std::vector<float> nearest = nearest_within(all, places, reach);
     std::vector<Eigen::Vector3f> left;
