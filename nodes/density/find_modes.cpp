@@ -2,7 +2,10 @@
 #include "nodes/density/find_modes.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
+#include "nodes/geometry/radix_sort.hpp"
 #include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::density {
@@ -15,6 +18,25 @@ Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote) {
   return {vote_center(votes, vote),
           Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote]), 0};
 }
+
+namespace {
+
+/// The highest first.
+void sort_by_density(std::vector<std::uint32_t>& votes, const std::vector<double>& density) {
+  struct Ranked {
+    std::uint64_t key;
+    std::uint32_t vote;
+  };
+  std::vector<Ranked> ranked;
+  ranked.reserve(votes.size());
+  // Bits of numbers that are not negative order as these do.
+  for (const std::uint32_t vote : votes)
+    ranked.push_back({~std::bit_cast<std::uint64_t>(density[vote]), vote});
+  geometry::radix_sort(ranked, [](const Ranked& one) { return one.key; });
+  for (std::size_t i = 0; i < votes.size(); ++i) votes[i] = ranked[i].vote;
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density) {
   const std::size_t per_correspondence = votes.votes_per_correspondence;
@@ -33,9 +55,7 @@ std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<do
       });
   for (std::size_t v = votes.circle_votes(); v < density.size(); ++v)
     if (density[v] > 0) best.push_back(static_cast<std::uint32_t>(v));
-  std::stable_sort(best.begin(), best.end(), [&density](std::uint32_t a, std::uint32_t b) {
-    return density[a] > density[b];
-  });
+  sort_by_density(best, density);
   return best;
 }
 

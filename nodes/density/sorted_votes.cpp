@@ -49,7 +49,7 @@ CellRange range_of(const VoteSet& votes, const std::vector<std::uint32_t>& usabl
 /// Brings the numbers of `sorted` into the order of their cells, those of one cell in that of their
 /// rotations, and notes where each cell begins.
 template <class Number>
-void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
+void sort_by_cell(const VoteSet& votes, const std::vector<std::uint16_t>& orders,
                   const CellRange& range, SortedVotes& sorted) {
   const auto cell_of = [&](std::uint32_t vote) {
     return translation_cell(vote_point(votes, vote), sorted.bandwidth);
@@ -64,7 +64,7 @@ void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
     members[i] = {number, sorted.numbers[i]};
   });
   geometry::radix_sort(
-      members, [&codes](const Member<Number>& one) { return rotation_order(codes[one.vote]); });
+      members, [&orders](const Member<Number>& one) { return std::uint32_t{orders[one.vote]}; });
   geometry::radix_sort(members, [](const Member<Number>& one) { return one.cell; });
   sorted.cell_begin =
       geometry::joined_ranges(members.size(), [&](std::size_t begin, std::size_t end) {
@@ -82,18 +82,31 @@ void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
   });
 }
 
-void sort_by_cell(const VoteSet& votes, const std::vector<RotationCode>& codes,
+void sort_by_cell(const VoteSet& votes, const std::vector<std::uint16_t>& orders,
                   SortedVotes& sorted) {
   if (!sorted.numbers.empty()) {
     const CellRange range = range_of(votes, sorted.numbers, sorted.bandwidth);
     double count = 1;
     for (const auto axis : kAxes) count *= static_cast<double>(range.count(axis));
     if (count < 4e9)
-      sort_by_cell<std::uint32_t>(votes, codes, range, sorted);
+      sort_by_cell<std::uint32_t>(votes, orders, range, sorted);
     else
-      sort_by_cell<geometry::LargeNumber>(votes, codes, range, sorted);
+      sort_by_cell<geometry::LargeNumber>(votes, orders, range, sorted);
   }
   sorted.cell_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
+}
+
+std::vector<std::uint16_t> rotation_orders(const VoteSet& votes) {
+  std::vector<std::uint16_t> orders(votes.tx.size());
+  graph::parallel_ranges(orders.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    std::vector<RotationCode> codes(end - begin);
+    encode_rotations({votes.qw.data() + begin, votes.qx.data() + begin, votes.qy.data() + begin,
+                      votes.qz.data() + begin},
+                     codes.size(), codes.data());
+    for (std::size_t i = begin; i < end; ++i)
+      orders[i] = static_cast<std::uint16_t>(rotation_order(codes[i - begin]));
+  });
+  return orders;
 }
 
 /// Copies the votes with these numbers.
@@ -155,13 +168,7 @@ SortedVotes sort_votes(const VoteSet& votes, Bandwidth bandwidth) {
   sorted.bandwidth = bandwidth;
   sorted.numbers = geometry::rows_that(
       count, [&](std::uint32_t v) { return is_usable(vote_point(votes, v), bandwidth); });
-  std::vector<RotationCode> codes(count);
-  graph::parallel_ranges(count, 16384, [&](std::size_t begin, std::size_t end) {
-    encode_rotations({votes.qw.data() + begin, votes.qx.data() + begin, votes.qy.data() + begin,
-                      votes.qz.data() + begin},
-                     end - begin, codes.data() + begin);
-  });
-  sort_by_cell(votes, codes, sorted);
+  sort_by_cell(votes, rotation_orders(votes), sorted);
   take({votes.tx.data(), votes.ty.data(), votes.tz.data(), votes.qw.data(), votes.qx.data(),
         votes.qy.data(), votes.qz.data()},
        sorted.numbers, sorted.votes);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/normal_noise.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/rows_that.hpp"
+#include "nodes/geometry/spread.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
@@ -32,21 +32,33 @@ constexpr double kFilled = 0.5 / 12;  // x width squared
 // one normal against the mean of two others varies 1.5 times as much as one alone.
 const float kQuartile = std::sqrt(2 * std::log(4.0F / 3)) * std::sqrt(1.5F);
 
-/// The unit normal, towards the viewpoint, of points that fill their cube.
-std::optional<Eigen::Vector3f> normal_of(const PointMatrix& points,
-                                         std::span<const std::uint32_t> members,
-                                         const Eigen::Vector3d& mean,
-                                         const Eigen::Vector3f& viewpoint, double width) {
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+/// The mean of points and how they spread about it.
+struct Moments {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+};
+
+Moments moments_of(const PointMatrix& points, std::span<const std::uint32_t> members) {
+  const Eigen::Vector3d first = points.row(members.front()).transpose().cast<double>();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const std::uint32_t i : members) {
-    const Eigen::Vector3d off = points.row(i).transpose().cast<double>() - mean;
-    spread += off * off.transpose();
+    const Eigen::Vector3d off = points.row(i).transpose().cast<double>() - first;
+    sum += off;
+    squares += off * off.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread /
-                                                            static_cast<double>(members.size()));
-  if (!(axes.eigenvalues()(1) > kFilled * width * width)) return std::nullopt;
-  const Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
-  return normal.dot(mean.cast<float>() - viewpoint) > 0 ? -normal : normal;
+  const auto count = static_cast<double>(members.size());
+  const Eigen::Vector3d mean = sum / count;
+  return {first + mean, squares / count - mean * mean.transpose()};
+}
+
+/// The unit normal, towards the viewpoint, of points that fill their cube.
+std::optional<Eigen::Vector3f> normal_of(const Moments& moments, const Eigen::Vector3f& viewpoint,
+                                         double width) {
+  const Spread spread = spread_of(moments.covariance);
+  if (!(spread.second > kFilled * width * width)) return std::nullopt;
+  const Eigen::Vector3f normal = spread.across.normalized().cast<float>();
+  return normal.dot(moments.mean.cast<float>() - viewpoint) > 0 ? -normal : normal;
 }
 
 Normals normals_of_cubes(const PointMatrix& points, const std::vector<std::uint32_t>& rows,
@@ -58,10 +70,10 @@ Normals normals_of_cubes(const PointMatrix& points, const std::vector<std::uint3
   graph::parallel_for(voxels.size(), 64, [&](std::size_t v) {
     const auto members = voxels[v];
     if (members.size() < kFewestPoints) return;
-    const Eigen::Vector3d mean = voxels.centroid(points, v).transpose();
-    const auto normal = normal_of(points, members, mean, viewpoint, static_cast<double>(width));
+    const Moments moments = moments_of(points, members);
+    const auto normal = normal_of(moments, viewpoint, static_cast<double>(width));
     const Eigen::Vector3i cell =
-        ((mean.cast<float>() - low.transpose()) / width).array().floor().cast<int>();
+        ((moments.mean.cast<float>() - low.transpose()) / width).array().floor().cast<int>();
     if (normal) found[v] = {{cell.x(), cell.y(), cell.z()}, *normal};
   });
   Normals normals;

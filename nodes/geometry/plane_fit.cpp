@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "graph/parallel.hpp"
 #include "nodes/data/splitmix64.hpp"
 #include "nodes/geometry/spread.hpp"
 
@@ -52,10 +53,13 @@ float upper_median(std::vector<float> values) {
 
 float typical_thickness(std::size_t count, const std::function<Plane(std::size_t, int)>& fit) {
   constexpr int kFewest = 5;
+  const std::vector<std::size_t> sample = sample_of(count);
+  std::vector<Plane> planes(sample.size());
+  graph::parallel_for(sample.size(), 16,
+                      [&](std::size_t i) { planes[i] = fit(sample[i], kFewest); });
   std::vector<float> thickness;
-  for (const std::size_t i : sample_of(count))
-    if (const Plane plane = fit(i, kFewest); !plane.normal.isZero())
-      thickness.push_back(plane.thickness);
+  for (const Plane& plane : planes)
+    if (!plane.normal.isZero()) thickness.push_back(plane.thickness);
   return upper_median(std::move(thickness));
 }
 

@@ -30,7 +30,8 @@ std::vector<std::size_t> sample_of(std::size_t count);
 /// The median, of an even number the upper of the two; 0 of nothing.
 float upper_median(std::vector<float> values);
 
-/// The typical thickness of planes at some of many places [m], by fit(place, min_neighbours).
+/// The typical thickness of planes at some of many places [m], by fit(place, min_neighbours), which
+/// several threads call.
 float typical_thickness(std::size_t count,
                         const std::function<Plane(std::size_t place, int min_neighbours)>& fit);
 

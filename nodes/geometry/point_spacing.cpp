@@ -161,7 +161,8 @@ float point_spacing(const PointMatrix& points) {
   // At first half of what a point would fill if they filled the largest side of the box around
   // most (far outliers must not set it): about what they are apart.
   float reach = 0.5F * diagonal / std::sqrt(static_cast<float>(all.rows()));
-  for (; !places.empty() && reach < 4 * diagonal; reach *= 2) {
+  // Once most are found: the rest, farther from theirs, do not move the median.
+  for (; 2 * distances.size() <= sample.size() && reach < 4 * diagonal; reach *= 2) {
     const std::vector<float> nearest = nearest_within(all, places, reach);
     std::vector<Eigen::Vector3f> left;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -171,7 +172,9 @@ float point_spacing(const PointMatrix& points) {
         left.push_back(places[i]);
     places = std::move(left);
   }
-  return upper_median(std::move(distances));
+  distances.resize(sample.size(), std::numeric_limits<float>::infinity());
+  const float spacing = upper_median(std::move(distances));
+  return std::isfinite(spacing) ? spacing : 0;
 }
 
 }  // namespace posevote::geometry

@@ -2,6 +2,8 @@
 #include "nodes/geometry/spread.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace posevote::geometry {
 namespace {
@@ -35,10 +37,11 @@ Spread spread_of(const Eigen::Matrix3d& m) {
   const double minors = m(0, 0) * m(1, 1) - xy + m(0, 0) * m(2, 2) - xz + m(1, 1) * m(2, 2) - yz;
   const double determinant = m(0, 0) * (m(1, 1) * m(2, 2) - yz) - xy * m(2, 2) - xz * m(1, 1) +
                              2 * m(0, 1) * m(0, 2) * m(1, 2);
-  Spread spread{smallest_root(trace, minors, determinant), Eigen::Vector3d::Zero()};
+  Spread spread{smallest_root(trace, minors, determinant), 0, Eigen::Vector3d::Zero()};
   // Sum and product of the two other eigenvalues tell their ratio.
   const double sum = trace - spread.least, product = minors - spread.least * sum;
   if (!(product > kLine * sum * sum)) return spread;
+  spread.second = (sum - std::sqrt(std::max(sum * sum - 4 * product, 0.0))) / 2;
   const Eigen::Matrix3d left = m - spread.least * Eigen::Matrix3d::Identity();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d across = left.col(i).cross(left.col((i + 1) % 3));

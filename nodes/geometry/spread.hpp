@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How points spread about their mean, as far as a plane through them asks: the smallest eigenvalue
-// of their covariance and the direction that belongs to it.
+// How points spread about their mean, as far as a plane through them asks: the two smallest
+// eigenvalues of their covariance and the direction that belongs to the smallest.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,7 @@ namespace posevote::geometry {
 
 struct Spread {
   double least = 0;        ///< the smallest eigenvalue, at least 0
+  double second = 0;       ///< the next; 0 where points lie on a line
   Eigen::Vector3d across;  ///< its eigenvector, not of unit length; 0 where points lie on a line:
                            ///< the second eigenvalue is at most 1e-4 of the third
 };

@@ -32,7 +32,7 @@ void check_object(const VoteSet& votes, const VoteDensity& density, std::size_t 
 }  // namespace
 
 LiveVotes all_votes(const VoteSet& votes, const VoteDensity& density) {
-  return {&votes, &density, std::vector<char>(density.density.size(), 1), density.density};
+  return {&votes, &density, std::vector<char>(density.density.size(), 1), {}};
 }
 
 void remove_explained(LiveVotes& object, const std::vector<char>& explained) {
@@ -52,7 +52,9 @@ void remove_explained(LiveVotes& object, const std::vector<char>& explained) {
     object.alive[vote] = 0;
     removed.push_back(vote);
   }
-  if (!removed.empty()) object.raw->index->subtract(removed, object.alive, object.density);
+  if (removed.empty()) return;
+  if (object.left.empty()) object.left = object.raw->density;
+  object.raw->index->subtract(removed, object.alive, object.left);
 }
 
 void check_votes(const PerObject<VoteSet>& votes, const PerObject<VoteDensity>& densities,

@@ -15,7 +15,10 @@ struct LiveVotes {
   const VoteSet* votes = nullptr;
   const VoteDensity* raw = nullptr;  ///< of all votes
   std::vector<char> alive;           ///< per vote
-  std::vector<double> density;       ///< per vote, over those alive; 0 where not alive
+  std::vector<double> left;          ///< densities; empty while all are alive
+
+  /// Per vote, over those alive; 0 where not alive.
+  const std::vector<double>& density() const { return left.empty() ? raw->density : left; }
 };
 
 LiveVotes all_votes(const VoteSet& votes, const VoteDensity& density);

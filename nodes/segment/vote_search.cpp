@@ -34,11 +34,11 @@ poses::Sought sought_for(const LiveVotes& object, const poses::ScanState& scan,
 }
 
 std::vector<Hypothesis> modes_of(const LiveVotes& object) {
-  const std::vector<std::uint32_t> best = density::best_votes(*object.votes, object.density);
+  const std::vector<std::uint32_t> best = density::best_votes(*object.votes, object.density());
   std::vector<Hypothesis> modes(best.size());
   graph::parallel_for(best.size(), 4096, [&](std::size_t i) {
     modes[i] = density::vote_hypothesis(*object.votes, best[i]);
-    modes[i].support = object.density[best[i]];
+    modes[i].support = object.density()[best[i]];
   });
   return modes;
 }

@@ -62,12 +62,12 @@ TEST_CASE("what is explained step by step leaves the densities of voting anew", 
     REQUIRE(!expected.empty());
     std::vector<double> left;
     double dead = 0;
-    for (std::size_t v = 0; v < object.density.size(); ++v) {
+    for (std::size_t v = 0; v < object.density().size(); ++v) {
       CHECK_FALSE((object.alive[v] && explained[scene.votes.scene_feature[v / 60]]));
       if (object.alive[v])
-        left.push_back(object.density[v]);
+        left.push_back(object.density()[v]);
       else
-        dead += std::abs(object.density[v]);
+        dead += std::abs(object.density()[v]);
     }
     CHECK(dead == 0);
     CHECK(left == expected);  // to the last bit: weights are multiples of 2^-22
@@ -79,7 +79,7 @@ TEST_CASE("all explained leaves nothing", "[segment]") {
   segment::LiveVotes object = segment::all_votes(scene.votes, scene.density);
   segment::remove_explained(
       object, std::vector<char>(static_cast<std::size_t>(scene.features.points.rows()), 1));
-  for (const double density : object.density) CHECK(density == 0);
+  for (const double density : object.density()) CHECK(density == 0);
 }
 
 TEST_CASE("a single vote goes with its feature", "[segment]") {
@@ -95,9 +95,9 @@ TEST_CASE("a single vote goes with its feature", "[segment]") {
   std::vector<char> explained(static_cast<std::size_t>(scene.features.points.rows()), 0);
   explained[4] = 1;
   segment::remove_explained(object, explained);
-  CHECK(object.density[circles] == 0);
-  CHECK(object.density[circles + 1] == Approx(scene.density.density[circles + 1] - 2));
-  CHECK(object.density[circles + 2] == 0);
+  CHECK(object.density()[circles] == 0);
+  CHECK(object.density()[circles + 1] == Approx(scene.density.density[circles + 1] - 2));
+  CHECK(object.density()[circles + 2] == 0);
 }
 
 TEST_CASE("inputs that do not belong together are refused", "[segment]") {
