@@ -114,7 +114,8 @@ FeatureSet PclSupport::describe(int length, std::size_t chunk, const Describe& f
       described[feature] = 1;
     }
   });
-  return descriptors::keep_described(support_.cloud(), support_.points(), descriptors, described);
+  return descriptors::keep_described(support_.cloud(), support_.points(), std::move(descriptors),
+                                     described);
 }
 
 void PclSupport::find_frames() {

@@ -6,6 +6,7 @@
 #include <flann/algorithms/kdtree_single_index.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -51,7 +52,11 @@ DescriptorMatrix stack(const std::vector<const DescriptorMatrix*>& matrices) {
 }
 
 void require_finite(const DescriptorMatrix& matrix, const char* whose) {
-  if (!matrix.allFinite())
+  std::atomic<bool> finite = true;
+  graph::parallel_for(static_cast<std::size_t>(matrix.rows()), 512, [&](std::size_t i) {
+    if (!matrix.row(static_cast<Eigen::Index>(i)).allFinite()) finite = false;
+  });
+  if (!finite)
     throw std::runtime_error(std::string(whose) + " descriptors hold values that are not finite");
 }
 

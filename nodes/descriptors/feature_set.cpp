@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/rows_that.hpp"
 #include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::descriptors {
@@ -38,17 +39,27 @@ bool is_oriented(const Cloud& cloud, std::uint32_t point) {
 }
 
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
-                          const DescriptorMatrix& descriptors, const std::vector<char>& described) {
-  std::vector<Eigen::Index> kept;
-  std::vector<std::uint32_t> kept_points;
-  for (std::size_t i = 0; i < described.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (!described[i] || !descriptors.row(row).allFinite()) continue;
-    kept.push_back(row);
-    kept_points.push_back(points.indices[i]);
+                          DescriptorMatrix descriptors, const std::vector<char>& described) {
+  constexpr std::size_t kGrain = 512;  // rows are long
+  const auto kept_of = [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> rows;
+    for (std::size_t i = begin; i < end; ++i)
+      if (described[i] && descriptors.row(static_cast<Eigen::Index>(i)).allFinite())
+        rows.push_back(static_cast<std::uint32_t>(i));
+    return rows;
+  };
+  const auto kept = geometry::joined_ranges(described.size(), kept_of, kGrain);
+  if (kept.size() < described.size()) {
+    DescriptorMatrix some(std::ssize(kept), descriptors.cols());
+    graph::parallel_for(kept.size(), kGrain, [&](std::size_t i) {
+      some.row(static_cast<Eigen::Index>(i)) = descriptors.row(kept[i]);
+    });
+    descriptors = std::move(some);
   }
+  std::vector<std::uint32_t> kept_points;
+  for (const std::uint32_t i : kept) kept_points.push_back(points.indices[i]);
   Cloud at = geometry::select_rows(cloud, kept_points);
-  return {std::move(at.points), std::move(at.normals), descriptors(kept, Eigen::all), {}, {}};
+  return {std::move(at.points), std::move(at.normals), std::move(descriptors), {}, {}};
 }
 
 Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius)
@@ -68,7 +79,7 @@ FeatureSet Support::describe_each(
     if (is_oriented(cloud_, point))
       described[i] = describe(point, descriptors.row(static_cast<Eigen::Index>(i)).data());
   });
-  return keep_described(cloud_, points_, descriptors, described);
+  return keep_described(cloud_, points_, std::move(descriptors), described);
 }
 
 }  // namespace posevote::descriptors

@@ -18,9 +18,9 @@ void require_describable(const Cloud& cloud, const FeaturePoints& points, const 
 bool is_oriented(const Cloud& cloud, std::uint32_t point);
 
 /// The feature points whose descriptor could be computed, row i of `descriptors` belonging to
-/// points.indices[i]. A row that is not finite is left out too. There may be none.
+/// points.indices[i]. A row that is not finite is left out too. There may be none. Parallel.
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
-                          const DescriptorMatrix& descriptors, const std::vector<char>& described);
+                          DescriptorMatrix descriptors, const std::vector<char>& described);
 
 /// The neighbourhoods that a descriptor looks at, in one cloud. Keeps references to its arguments.
 class Support {

@@ -146,9 +146,10 @@ std::vector<float> nearest_within(const PointMatrix& points,
 
 float point_spacing(const PointMatrix& points) {
   std::vector<Place> sample = places_of(points, kSample);
-  // A place that holds thousands of points must not make the sample; few scans have one.
+  // A place that holds thousands of points must not make the sample, nor leave it empty; few scans
+  // have one.
   PointMatrix once;
-  if (!seem_distinct(sample)) {
+  if (sample.size() < 2 || !seem_distinct(sample)) {
     once = distinct(points);
     sample = places_of(once, kSample);
   }

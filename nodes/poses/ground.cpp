@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/ground.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
+#include "graph/parallel.hpp"
 #include "nodes/geometry/plane_fit.hpp"
 #include "nodes/geometry/scan_surface.hpp"
 #include "nodes/geometry/spread.hpp"
@@ -63,15 +64,17 @@ Plane fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows, const P
 std::optional<Plane> largest_plane(const Cloud& scan, float depth) {
   const std::vector<std::size_t> sample =
       geometry::sample_of(static_cast<std::size_t>(scan.points.rows()));
-  std::vector<std::size_t> most;
-  Plane best;
-  for (std::size_t trial = 0; trial < kTrials && !sample.empty(); ++trial) {
-    const Plane plane = plane_at(scan, sample[trial * sample.size() / kTrials]);
-    std::vector<std::size_t> on = points_on(plane, scan, sample, kRough * depth);
-    if (on.size() <= most.size()) continue;
-    most = std::move(on);
-    best = plane;
-  }
+  if (sample.empty()) return std::nullopt;
+  const auto trial = [&](std::size_t i) {
+    return plane_at(scan, sample[i * sample.size() / kTrials]);
+  };
+  std::vector<std::size_t> counts(kTrials);
+  graph::parallel_for(kTrials, 1, [&](std::size_t i) {
+    counts[i] = points_on(trial(i), scan, sample, kRough * depth).size();
+  });
+  const auto first = std::ranges::max_element(counts);
+  Plane best = trial(static_cast<std::size_t>(first - counts.begin()));
+  const std::vector<std::size_t> most = points_on(best, scan, sample, kRough * depth);
   if (most.size() * kLeastShare < sample.size() || most.size() < 3) return std::nullopt;
   best = fit_plane(scan, most, best);
   const std::vector<std::size_t> close = points_on(best, scan, sample, depth);

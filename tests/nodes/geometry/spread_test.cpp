@@ -19,7 +19,8 @@ Eigen::Matrix3d turned(const Eigen::Vector3d& eigenvalues, std::mt19937& random)
 
 }  // namespace
 
-TEST_CASE("the least spread is Eigen's smallest eigenvalue and vector", "[prepare]") {
+TEST_CASE("the two least spreads are Eigen's smallest eigenvalues, the least's way its vector",
+          "[prepare]") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int i = 0; i < 20000; ++i) {
@@ -30,6 +31,7 @@ TEST_CASE("the least spread is Eigen's smallest eigenvalue and vector", "[prepar
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
     const geometry::Spread spread = geometry::spread_of(covariance);
     REQUIRE(std::abs(spread.least - solver.eigenvalues()[0]) < 1e-9 * scale);
+    REQUIRE(std::abs(spread.second - solver.eigenvalues()[1]) < 1e-7 * scale);
     const double cosine = spread.across.normalized().dot(solver.eigenvectors().col(0));
     REQUIRE(std::abs(cosine) > 1 - 1e-10);
   }
