@@ -41,7 +41,7 @@ nlohmann::ordered_json instances_json(const Evaluation& evaluation) {
 int simulate_command(const SimulateCommand& command) {
   Spec spec = read_spec(command.spec);
   spec.colors |= command.colors;
-  simulate(spec, command.out);
+  simulate_set(spec, command.out);
   std::cout << "wrote " << command.out << "\n";
   return 0;
 }

@@ -50,10 +50,10 @@ TEST_CASE("a painted set has the same geometry, and colours that agree", "[simul
   std::string text = kSmall;
   text.replace(text.find("{shape: horn, size: 0.15}"), 25, "{shape: carton, size: 0.15}");
   Spec spec = read_spec(folder.write("spec.yaml", text));
-  simulate(spec, folder / "plain");
+  simulate_set(spec, folder / "plain");
   spec.colors = true;
-  simulate(spec, folder / "painted");
-  simulate(spec, folder / "again");
+  simulate_set(spec, folder / "painted");
+  simulate_set(spec, folder / "again");
   const auto plain = all_files(folder / "plain"), painted = all_files(folder / "painted");
   CHECK(painted == all_files(folder / "again"));
   for (const auto& [name, bytes] : plain)
@@ -81,8 +81,8 @@ TEST_CASE("a painted set has the same geometry, and colours that agree", "[simul
 TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simulate]") {
   const TemporaryFolder folder;
   const std::string spec = folder.write("spec.yaml", kSmall);
-  simulate(spec, folder / "a");
-  simulate(spec, folder / "b");
+  simulate_set(spec, folder / "a");
+  simulate_set(spec, folder / "b");
   const auto files = all_files(folder / "a");
   CHECK(files == all_files(folder / "b"));
   for (const char* name : {"models/obj_000001.ply", "models/obj_000002.ply",
@@ -119,7 +119,7 @@ TEST_CASE("a simulated set: same bytes twice, true poses fit the scans", "[simul
 
 TEST_CASE("depth image and PLY scan hold the same points", "[simulate]") {
   const TemporaryFolder folder;
-  simulate(folder.write("spec.yaml", kSmall), folder / "out");
+  simulate_set(folder.write("spec.yaml", kSmall), folder / "out");
   const formats::DepthImage depth =
       formats::read_depth_image(folder / "out" / "test/000001/depth/000000.png");
   CHECK(depth.width == 800);
@@ -148,11 +148,12 @@ TEST_CASE("a folder that holds something is refused", "[simulate]") {
   const TemporaryFolder folder;
   const std::string spec = folder.write("spec.yaml", kSmall);
   folder.write("out/precious.txt", "x");
-  CHECK_THROWS_AS(simulate(spec, folder / "out"), std::invalid_argument);
-  CHECK_THROWS_AS(simulate(spec, spec), std::invalid_argument);
+  CHECK_THROWS_AS(simulate_set(spec, folder / "out"), std::invalid_argument);
+  CHECK_THROWS_AS(simulate_set(spec, spec), std::invalid_argument);
   CHECK(all_files(folder / "out").size() == 1);
   folder.write("new.unfinished/precious.txt", "x");
-  CHECK_THROWS_WITH(simulate(spec, folder / "new"), Catch::Contains("precious.txt: is in the way"));
+  CHECK_THROWS_WITH(simulate_set(spec, folder / "new"),
+                    Catch::Contains("precious.txt: is in the way"));
   CHECK(all_files(folder / "new.unfinished").size() == 1);
 }
 
@@ -163,11 +164,11 @@ TEST_CASE("an empty folder is filled, not replaced", "[simulate]") {
   fs::create_directory(out);
   fs::create_directory_symlink(out, elsewhere);
   fs::create_directories(out / ".unfinished" / "models");  // of a simulation that was stopped
-  simulate(spec, elsewhere);
+  simulate_set(spec, elsewhere);
   CHECK(fs::is_symlink(elsewhere));
   CHECK(fs::exists(out / "test_targets_bop19.json"));
   CHECK(!fs::exists(out / ".unfinished"));
-  CHECK_THROWS_AS(simulate(spec, out), std::invalid_argument);
+  CHECK_THROWS_AS(simulate_set(spec, out), std::invalid_argument);
 }
 
 TEST_CASE("all problems of a spec are reported, with their places", "[simulate]") {
@@ -214,7 +215,7 @@ TEST_CASE("one scene of each replica of few triangles: models as they are, noise
     const TemporaryFolder folder;
     const std::string spec = std::string(POSEVOTE_SOURCE_DIR "/configs/") + name + "_scenes.yaml";
     const Spec all = read_spec(spec);
-    simulate(spec, folder / "out", all.scenes.size());
+    simulate_set(spec, folder / "out", all.scenes.size());
     const layouts::GroundTruth truth = layouts::read_ground_truth(folder / "out", "test");
     CHECK(truth.objects.size() == all.models.size());
     CHECK(truth.instances.size() == all.scenes[0].objects.size());
@@ -250,7 +251,7 @@ TEST_CASE("a scene's noise takes the place of its sensor's", "[simulate]") {
     const std::string spec = folder.write(
         noise + ".yaml", "models: [{shape: carton, size: 0.1}]\nscenes: [{sensor: plain, noise: " +
                              noise + ", objects: [1], clutter: 0, elevation: 90, distance: 1}]\n");
-    simulate(spec, folder / noise);
+    simulate_set(spec, folder / noise);
     const Scan scan = formats::read_scan(folder / noise / "scans/000000.ply", 1);
     double sum = 0, count = 0;  // the table is 1.05 m away; the object's shadow is all nearer
     for (Eigen::Index i = 0; i < scan.points.rows(); ++i)

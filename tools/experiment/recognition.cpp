@@ -52,7 +52,7 @@ fs::path find_dataset(const ExperimentCommand& command, const fs::path& out) {
   fs::path dataset = out / (step == 1 ? "replica" : "replica_every_" + std::to_string(step));
   if (fs::exists(dataset)) return dataset;
   spdlog::info("no --dataset: making the replica");
-  simulate(spec_of(command), dataset, step);
+  simulate_set(spec_of(command), dataset, step);
   return dataset;
 }
 

@@ -29,7 +29,7 @@ fs::path find_replica(const std::string& config, std::size_t every, const fs::pa
   if (fs::exists(dataset)) return dataset;
   Spec spec = read_spec(file);
   spec.colors |= colors;
-  simulate(spec, dataset, every);
+  simulate_set(spec, dataset, every);
   return dataset;
 }
 

@@ -105,7 +105,7 @@ int check(const Command& given, const std::atomic<bool>& interrupted) {
     const fs::path folder = fs::path(command.out) / format("range_%g_m", range);
     fs::create_directories(folder);
     spdlog::info("{} m: making {} scans", range, command.scans);
-    simulate(make_spec(command, range, diagonal), folder / "scenes");
+    simulate_set(make_spec(command, range, diagonal), folder / "scenes");
     fs::remove_all(folder / "scenes" / "scans");  // the depth images say the same
     spdlog::info("{} m: looking for the parts in them", range);
     const int status = run_command(make_run(command, folder), interrupted);

@@ -48,7 +48,7 @@ Json rounded(const std::vector<double>& matrix) {
   return json;
 }
 
-Json to_json(const FoundObject& found, ModelList& models) {
+Json to_json(const ReportedObject& found, ModelList& models) {
   return {{"model", models.number_of(found.obj_id, found.model)},
           {"confidence", rounded(found.confidence)},
           {"score", rounded(found.score)},
@@ -63,13 +63,13 @@ Json to_json(const FoundObject& found, ModelList& models) {
 }
 
 /// The best of each object, the most confident first.
-std::vector<FoundObject> best_rejected(std::vector<FoundObject> all) {
-  std::stable_sort(all.begin(), all.end(), [](const FoundObject& a, const FoundObject& b) {
+std::vector<ReportedObject> best_rejected(std::vector<ReportedObject> all) {
+  std::stable_sort(all.begin(), all.end(), [](const ReportedObject& a, const ReportedObject& b) {
     return std::isfinite(a.confidence) && !(a.confidence <= b.confidence);
   });
-  std::vector<FoundObject> best;
+  std::vector<ReportedObject> best;
   std::set<std::string> seen;
-  for (FoundObject& one : all)
+  for (ReportedObject& one : all)
     if (best.size() < kMostRejected && seen.insert(one.model).second)
       best.push_back(std::move(one));
   return best;
@@ -85,8 +85,8 @@ Json to_json(const AnsweredFrame& frame, ModelList& models) {
             {"stages", rounded(frame.stages)},
             {"found", Json::array()},
             {"rejected", Json::array()}};
-  for (const FoundObject& found : frame.found) json["found"].push_back(to_json(found, models));
-  for (const FoundObject& best : best_rejected(frame.rejected))
+  for (const ReportedObject& found : frame.found) json["found"].push_back(to_json(found, models));
+  for (const ReportedObject& best : best_rejected(frame.rejected))
     json["rejected"].push_back(to_json(best, models));
   return json;
 }
@@ -219,7 +219,7 @@ std::string script_json(const Json& json) {
   return text;
 }
 
-std::vector<std::string> sentences(const FoundObject& object) {
+std::vector<std::string> sentences(const ReportedObject& object) {
   std::vector<std::string> list;
   if (!object.why.empty()) list.push_back("Not taken: " + object.why + ".");
   const auto worst =

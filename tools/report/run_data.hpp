@@ -34,6 +34,6 @@ std::string run_markup(const std::filesystem::path& folder, const RunResults& ru
 std::string script_json(const nlohmann::ordered_json& json);
 
 /// What there is to say of one object in one scan, in sentences, for the details of its card.
-std::vector<std::string> sentences(const FoundObject& object);
+std::vector<std::string> sentences(const ReportedObject& object);
 
 }  // namespace posevote::page

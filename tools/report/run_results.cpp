@@ -53,19 +53,19 @@ std::vector<double> pose(const Json& json) {
   return matrix.size() == 16 && json.size() == 16 ? matrix : std::vector<double>();
 }
 
-FoundObject to_object(const Json& json) {
-  FoundObject found{text(json, "model"),
-                    whole(json, "obj_id"),
-                    number(json, "confidence"),
-                    number(json, "score"),
-                    number(json, "density"),
-                    number(json, "runner_up_density"),
-                    number(json, "inlier_fraction"),
-                    number(json, "rmse_m"),
-                    pose(member(json, "T_scene_model")),
-                    numbers(member(json, "clues")),
-                    numbers(member(json, "against")),
-                    text(json, "why")};
+ReportedObject to_object(const Json& json) {
+  ReportedObject found{text(json, "model"),
+                       whole(json, "obj_id"),
+                       number(json, "confidence"),
+                       number(json, "score"),
+                       number(json, "density"),
+                       number(json, "runner_up_density"),
+                       number(json, "inlier_fraction"),
+                       number(json, "rmse_m"),
+                       pose(member(json, "T_scene_model")),
+                       numbers(member(json, "clues")),
+                       numbers(member(json, "against")),
+                       text(json, "why")};
   if (found.model.empty()) found.model = "object " + member(json, "obj_id").dump();
   return found;
 }

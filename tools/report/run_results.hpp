@@ -15,7 +15,7 @@ namespace posevote {
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// What is missing, or is no number, is NaN; text is empty.
-struct FoundObject {
+struct ReportedObject {
   std::string model;
   int obj_id = 0;
   double confidence = 0, score = 0, density = 0, runner_up_density = 0, inlier_fraction = 0,
@@ -31,7 +31,7 @@ struct AnsweredFrame {
   std::string name;  ///< UTF-8
   int scene_id = 0, im_id = 0;
   double seconds = 0, latency = 0;  ///< [s]
-  std::vector<FoundObject> found, rejected;
+  std::vector<ReportedObject> found, rejected;
   std::vector<std::string> warnings;  ///< "node: what"
   NamedNumbers stages;                ///< seconds by node
 };

@@ -81,8 +81,8 @@ std::string models(const RunResults& run, const page::ShownRun& inputs) {
   for (const SoughtModel& model : inputs.models()) models[model.name];
   for (const LeftOutModel& model : run.left_out) models.erase(model.name);  // told above
   for (const AnsweredFrame& frame : run.frames) {
-    for (const FoundObject& best : frame.rejected) models[best.model];
-    for (const FoundObject& found : frame.found) {
+    for (const ReportedObject& best : frame.rejected) models[best.model];
+    for (const ReportedObject& found : frame.found) {
       Model& model = models[found.model];
       if (std::isfinite(found.confidence)) model.confidences.push_back(found.confidence);
       if (std::exchange(model.last, &frame) != &frame) ++model.frames;

@@ -241,11 +241,11 @@ void remove_unfinished(const fs::path& folder) {
 
 }  // namespace
 
-void simulate(const std::string& spec_file, const fs::path& out, std::size_t step) {
-  simulate(read_spec(spec_file), out, step);
+void simulate_set(const std::string& spec_file, const fs::path& out, std::size_t step) {
+  simulate_set(read_spec(spec_file), out, step);
 }
 
-void simulate(const Spec& spec, const fs::path& out, std::size_t step) {
+void simulate_set(const Spec& spec, const fs::path& out, std::size_t step) {
   // Under its name there is a whole set or none. An empty folder stays the one it is, for it may be
   // a mount point, or where somebody's shell stands: what is made moves there at the end.
   const fs::path folder = out.has_filename() ? out : out.parent_path();

@@ -13,10 +13,11 @@ namespace posevote {
 /// bytes, at any number of threads. Throws graph::ConfigError for problems of the file,
 /// std::invalid_argument where `out` is not empty and std::runtime_error where it cannot be
 /// written. `step`: only every so manieth image.
-void simulate(const std::string& spec_file, const std::filesystem::path& out, std::size_t step = 1);
+void simulate_set(const std::string& spec_file, const std::filesystem::path& out,
+                  std::size_t step = 1);
 
 /// The same of a spec that a program made. Throws std::invalid_argument, too, for a mesh or a sensor
 /// of the user's own that cannot be used.
-void simulate(const Spec& spec, const std::filesystem::path& out, std::size_t step = 1);
+void simulate_set(const Spec& spec, const std::filesystem::path& out, std::size_t step = 1);
 
 }  // namespace posevote
