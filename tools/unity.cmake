@@ -1,6 +1,7 @@
 # Files are compiled several at a time: most of the time of one goes into the headers that all include.
 # A clean build takes half the time, a change of one file several times as long: who changes files
-# often configures once with -DPOSEVOTE_UNITY=OFF.
+# often configures once with -DPOSEVOTE_UNITY=OFF. The presets debug and asan do without, so that a file
+# that forgets to include something is found.
 option(POSEVOTE_UNITY "Compile files several at a time" ON)
 set(CMAKE_UNITY_BUILD ${POSEVOTE_UNITY})
 

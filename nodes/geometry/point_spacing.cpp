@@ -88,7 +88,7 @@ class Vicinity {
     for (const Eigen::Vector3f& place : places) box_.extend(place.cast<double>());
     const double margin = 1.00001 * static_cast<double>(reach);  // rounding
     box_ = {box_.min().array() - margin, box_.max().array() + margin};
-    per_cell_ = 1 / std::max(margin, box_.sizes().maxCoeff() / 1e9);  // two fill 60 bits of a key
+    per_cell_ = 1 / std::max(margin, box_.sizes().maxCoeff() / 1e9);  // below 2^30
     marks_.resize(std::bit_ceil(kMarksPerPlace * places.size()) / 64, 0);
     for (const Eigen::Vector3f& place : places) mark_around(place);
   }

@@ -10,8 +10,7 @@
 #include "nodes/data/detections.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
-
+namespace posevote::average_count_test {
 namespace {
 
 struct Nothing {};
@@ -59,3 +58,5 @@ TEST_CASE("a node with a state sees all frames in order, failed ones, too", "[ex
     CHECK(averages({2, 4, -1, 6, 8}) == std::vector<double>{2, 3, -1, 3, 7});
   }
 }
+
+}  // namespace posevote::average_count_test

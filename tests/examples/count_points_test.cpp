@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/command_line.hpp"
 
-using namespace posevote;
+namespace posevote::count_points_test {
 
 TEST_CASE("a command registers itself and parses its own options", "[examples]") {
   const test::TemporaryFolder folder;
@@ -22,3 +22,5 @@ TEST_CASE("a command registers itself and parses its own options", "[examples]")
   app.parse((folder / "none.off").string());
   CHECK_THROWS_WITH(run(), Catch::Contains("none.off: there is no such file"));
 }
+
+}  // namespace posevote::count_points_test

@@ -7,7 +7,7 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::crop_box_test {
 
 TEST_CASE("crop_box keeps what lies in the box, with its normals and the view", "[examples]") {
   Scan scan;
@@ -43,3 +43,5 @@ TEST_CASE("a variant of the pipeline takes it in", "[examples]") {
   CHECK_THROWS_WITH(load_configuration(variant("[-1, -1]"), {}),
                     Catch::Contains("must have three numbers each"));
 }
+
+}  // namespace posevote::crop_box_test

@@ -6,7 +6,7 @@
 #include "pipelines/inputs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::flat_folder_test {
 
 TEST_CASE("a set in a layout of one's own is run and judged as others", "[examples]") {
   const test::TemporaryFolder folder;
@@ -28,3 +28,5 @@ TEST_CASE("a set in a layout of one's own is run and judged as others", "[exampl
   CHECK_THROWS_WITH(layouts::read_ground_truth(folder.path(), "test"),
                     Catch::Contains("poses.txt:1: expected a scan"));
 }
+
+}  // namespace posevote::flat_folder_test

@@ -5,7 +5,7 @@
 #include "pipelines/inputs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::read_xyz_test {
 
 TEST_CASE("XYZ files are scans like others", "[examples]") {
   const test::TemporaryFolder folder;
@@ -18,3 +18,5 @@ TEST_CASE("XYZ files are scans like others", "[examples]") {
   CHECK_THROWS_WITH(formats::read_scan(folder.write("b.xyz", "1 2 3\n1 2\n"), 1),
                     Catch::Contains("line 2: expected x y z"));
 }
+
+}  // namespace posevote::read_xyz_test

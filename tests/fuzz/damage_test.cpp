@@ -12,6 +12,8 @@
 
 #include "tests/fuzz/reader.hpp"
 
+namespace posevote::damage_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -132,3 +134,5 @@ TEST_CASE("Damage: random bytes behind a good beginning", "[damage]") {
     }
   });
 }
+
+}  // namespace posevote::damage_test

@@ -6,7 +6,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::activity_test {
+
 using namespace posevote::test;
 using posevote::graph::Activity;
 
@@ -99,3 +100,5 @@ TEST_CASE("what is made of constants can be cancelled, too", "[activity]") {
   Activity activity(&had_enough);
   CHECK_THROWS_AS(graph::fold_constants(plan, {{"c", number(4)}}, &activity), graph::Cancelled);
 }
+
+}  // namespace posevote::activity_test

@@ -4,7 +4,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::extends_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -192,3 +193,5 @@ TEST_CASE("variants that go round in a circle, and a broken one in the chain", "
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].find("d.yaml:2:1: is not valid YAML") == 0);
 }
+
+}  // namespace posevote::extends_test

@@ -4,7 +4,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::failures_test {
+
 using namespace posevote::test;
 
 TEST_CASE("a failing frame leaves as a named failure and the others go on", "[runner]") {
@@ -112,3 +113,5 @@ TEST_CASE("a node may end the run where no frame could do better", "[runner]") {
     CHECK(logged.size() == 5);
   });
 }
+
+}  // namespace posevote::failures_test

@@ -6,7 +6,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::output_file_test {
+
 using Catch::Contains;
 using graph::OutputFile;
 using graph::sync_file;
@@ -45,3 +46,5 @@ TEST_CASE("files and folders are put on the disk", "[output_file]") {
   CHECK_NOTHROW(sync_file("/dev/null"));  // knows no such thing
   CHECK_THROWS_WITH(sync_file(folder / "none"), Contains("none: cannot be written: No such file"));
 }
+
+}  // namespace posevote::output_file_test

@@ -6,7 +6,8 @@
 #include "graph/mermaid.hpp"
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::plan_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -259,3 +260,5 @@ TEST_CASE("a node with a state takes the objects of a frame all at once", "[plan
   check_one(kHead + "  split: {in: n, out: o}\n  add_up: {in: o, out: s}\n  sum: {in: s, out: r}\n",
             "test.yaml:5:3: add_up: ", "would run for each object");
 }
+
+}  // namespace posevote::plan_test

@@ -6,7 +6,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::previous_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -97,3 +98,5 @@ TEST_CASE("what cannot be read of the frame before", "[previous]") {
              Catch::Contains("add_before.before: expected previous test::Number, but node to_text "
                              "produces 't' as test::Text"));
 }
+
+}  // namespace posevote::previous_test

@@ -6,7 +6,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::runner_test {
+
 using namespace posevote::test;
 
 TEST_CASE("results leave in frame order, whatever takes longest", "[runner]") {
@@ -279,3 +280,5 @@ TEST_CASE("no frames, and a second run of one plan", "[runner]") {
   CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
   CHECK(run_numbers(plan, 50, {}, [](const auto&) {}).done == 50);
 }
+
+}  // namespace posevote::runner_test

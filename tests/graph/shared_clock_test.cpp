@@ -4,8 +4,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
-using namespace posevote;
-
+namespace posevote::shared_clock_test {
 namespace {
 
 using std::chrono::steady_clock;
@@ -47,3 +46,5 @@ TEST_CASE("who works at the same time shares it", "[trace]") {
   CHECK(charged_a + charged_b <= all);
   CHECK(charged_a + charged_b >= 60e3);
 }
+
+}  // namespace posevote::shared_clock_test

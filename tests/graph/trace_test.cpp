@@ -6,7 +6,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::trace_test {
+
 using namespace posevote::test;
 
 TEST_CASE("the trace adds up and is JSON that a viewer opens", "[trace]") {
@@ -27,3 +28,5 @@ TEST_CASE("the trace adds up and is JSON that a viewer opens", "[trace]") {
   CHECK(json["traceEvents"][0]["dur"] == 2e6);
   CHECK(graph::time_table(trace.times()).find("75.0%") != std::string::npos);
 }
+
+}  // namespace posevote::trace_test

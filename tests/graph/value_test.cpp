@@ -6,7 +6,8 @@
 #include "tests/graph/number_nodes.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::value_test {
+
 using test::Number;
 using Pointer = std::shared_ptr<const Number>;
 
@@ -48,3 +49,5 @@ TEST_CASE("a node may not return a null pointer", "[value]") {
       test::run_node<Pointer>("check_number", {{"lose", "true"}}, Number{5}),
       Catch::Matchers::StartsWith("it returned no ") && Catch::Matchers::EndsWith("Number"));
 }
+
+}  // namespace posevote::value_test

@@ -4,7 +4,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::warnings_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -76,3 +77,5 @@ TEST_CASE("who runs last reads what the others told", "[runner]") {
   CHECK(heard == std::vector<std::string>{"first 0 odd", "second 0 odd", "first 1", "second 1",
                                           "first 2", "second 2", "first 3 odd", "second 3 odd"});
 }
+
+}  // namespace posevote::warnings_test

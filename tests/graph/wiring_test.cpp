@@ -5,7 +5,8 @@
 
 #include "tests/graph/number_nodes.hpp"
 
-using namespace posevote;
+namespace posevote::wiring_test {
+
 using namespace posevote::test;
 
 TEST_CASE("a plan says how it is wired and what its parameters are", "[plan]") {
@@ -24,3 +25,5 @@ TEST_CASE("a plan says how it is wired and what its parameters are", "[plan]") {
   const graph::Plan halves = plan_of(kHead + "  halve: {in: n, out: {small: r}}\n");
   CHECK(graph::wiring(halves).at("halve") == "halve(n) -> r, -");
 }
+
+}  // namespace posevote::wiring_test

@@ -9,7 +9,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::write_file_test {
+
 using Catch::Contains;
 using graph::write_durably;
 using graph::write_file;
@@ -85,3 +86,5 @@ TEST_CASE("what a killed process left of a file is taken away, and nothing else"
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 4);
   CHECK_NOTHROW(graph::remove_unfinished(folder / "none"));
 }
+
+}  // namespace posevote::write_file_test

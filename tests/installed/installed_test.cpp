@@ -8,7 +8,8 @@
 
 #include "tests/installed/shell.hpp"
 
-using namespace posevote;
+namespace posevote::installed_test {
+
 using namespace posevote::test;
 namespace fs = std::filesystem;
 
@@ -152,3 +153,5 @@ TEST_CASE("the Python module finds a part", "[installed]") {
   CHECK(found.status == 0);
   CHECK(found.output.ends_with("fine\n"));
 }
+
+}  // namespace posevote::installed_test

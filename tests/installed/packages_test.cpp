@@ -5,7 +5,8 @@
 
 #include "tests/installed/shell.hpp"
 
-using namespace posevote;
+namespace posevote::packages_test {
+
 using namespace posevote::test;
 namespace fs = std::filesystem;
 
@@ -122,3 +123,5 @@ END
 )");
   CHECK(contains(facts, "fine\n"));
 }
+
+}  // namespace posevote::packages_test

@@ -4,6 +4,8 @@
 
 #include "tests/support/command.hpp"
 
+namespace posevote::ablation_test {
+
 using namespace posevote::test;
 
 TEST_CASE("experiment ablation says what terms bring, of segmentation and training", "[ablation]") {
@@ -45,3 +47,5 @@ TEST_CASE("experiment ablation refuses sets and terms that there are not", "[abl
   CHECK(folder_missing.status == 2);
   CHECK(folder_missing.output.find("nowhere") != std::string::npos);
 }
+
+}  // namespace posevote::ablation_test

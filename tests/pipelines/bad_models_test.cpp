@@ -7,7 +7,8 @@
 #include "tests/support/command.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::bad_models_test {
+
 using namespace posevote::test;
 using Catch::Matchers::Contains;
 
@@ -96,3 +97,5 @@ TEST_CASE("a bad model stops a run that is to stop, and so do bad models alone",
                               Contains("line.obj") && Contains("text.ply"));
   CHECK_FALSE(std::filesystem::exists(library));
 }
+
+}  // namespace posevote::bad_models_test

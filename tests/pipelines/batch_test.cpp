@@ -3,7 +3,8 @@
 #include "tests/pipelines/run_world.hpp"
 #include "tools/manifest/manifest.hpp"
 
-using namespace posevote;
+namespace posevote::batch_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -165,3 +166,5 @@ TEST_CASE("a batch that is killed at any moment is resumed to the same results",
   CHECK(killed.status == 0);
   CHECK_THAT(killed.output, Contains("killed 6 times"));
 }
+
+}  // namespace posevote::batch_test

@@ -4,6 +4,8 @@
 
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::covariance_test {
+
 using namespace posevote::test;
 
 TEST_CASE("true errors of right detections lie within the 95 % ellipsoid", "[run]") {
@@ -38,3 +40,5 @@ TEST_CASE("true errors of right detections lie within the 95 % ellipsoid", "[run
       for (int i = 3; i < 6; ++i)
         CHECK(std::sqrt(detection["covariance"][7 * i].get<double>()) < 2 / 57.3);
 }
+
+}  // namespace posevote::covariance_test

@@ -5,6 +5,8 @@
 
 #include "tests/support/command.hpp"
 
+namespace posevote::experiment_test {
+
 using namespace posevote::test;
 namespace fs = std::filesystem;
 
@@ -162,3 +164,5 @@ TEST_CASE("bench --growth measures one quantity at several sizes", "[bench]") {
   CHECK(read_text(folder / "g.svg").find("exponent") != std::string::npos);
   CHECK(run_posevote(folder, "bench --growth weight").status == 2);
 }
+
+}  // namespace posevote::experiment_test

@@ -9,7 +9,8 @@
 #include "nodes/formats/write_ply.hpp"
 #include "tests/pipelines/run_world.hpp"
 
-using namespace posevote;
+namespace posevote::explain_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -264,3 +265,5 @@ TEST_CASE("pictures are drawn, and the run's own results stay as they are", "[ex
   CHECK(share(votes, kBlue) > share(votes, kRed));
   CHECK(read_text(out + "/results.json") == before);
 }
+
+}  // namespace posevote::explain_test

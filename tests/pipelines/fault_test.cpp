@@ -5,6 +5,8 @@
 
 #include "tests/support/command.hpp"
 
+namespace posevote::fault_test {
+
 using namespace posevote::test;
 
 #ifdef POSEVOTE_FAULTS
@@ -33,3 +35,5 @@ TEST_CASE("a batch outlasts kills, full disks, interrupts and short writes", "[f
   CHECK_THAT(tried.output, Catch::Contains(" 0 of them wrong"));
 }
 #endif
+
+}  // namespace posevote::fault_test

@@ -4,6 +4,8 @@
 
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::follow_run_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -51,3 +53,5 @@ TEST_CASE("a scan that would take too much memory fails by name", "[follow]") {
   CHECK_THAT(run.output, Contains("000000.ply: load_scene: has ") &&
                              Contains("more than the 16384 that memory is granted for"));
 }
+
+}  // namespace posevote::follow_run_test

@@ -2,7 +2,8 @@
 // `explain` and `view` of runs over recordings: the scans are found again with their cameras.
 #include "tests/pipelines/run_world.hpp"
 
-using namespace posevote;
+namespace posevote::found_again_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -64,3 +65,5 @@ TEST_CASE("runs over depth images with one camera, and over TUM folders, are exp
     }
   }
 }
+
+}  // namespace posevote::found_again_test

@@ -4,6 +4,8 @@
 
 #include "tests/support/command.hpp"
 
+namespace posevote::fused_test {
+
 using namespace posevote::test;
 
 TEST_CASE("fused descriptors find what is there, from a cached library too", "[run]") {
@@ -35,3 +37,5 @@ TEST_CASE("fused descriptors find what is there, from a cached library too", "[r
     CHECK(detections == first);  // blocks come back from the cached file
   }
 }
+
+}  // namespace posevote::fused_test

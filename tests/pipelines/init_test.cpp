@@ -9,7 +9,8 @@
 #include "tests/pipelines/run_world.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::init_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -204,3 +205,5 @@ TEST_CASE("init: models inside out, and files that cannot be read", "[init]") {
   CHECK_THAT(nothing.output, Catch::Contains("nothing readable") && Catch::Contains("000001.ply"));
   CHECK_FALSE(fs::exists(w.folder / "none"));
 }
+
+}  // namespace posevote::init_test

@@ -4,7 +4,8 @@
 #include "nodes/formats/read_scan.hpp"
 #include "tests/pipelines/run_world.hpp"
 
-using namespace posevote;
+namespace posevote::own_scan_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -61,3 +62,5 @@ TEST_CASE("four commands lead from a clean clone to the picture of one's own sca
   CHECK(read_text(folder / "out/detections.csv").find("part") != std::string::npos);
   CHECK(read_text(folder / "out/report.html").size() > 100000);
 }
+
+}  // namespace posevote::own_scan_test

@@ -6,7 +6,8 @@
 #include "tests/pipelines/run_world.hpp"
 #include "tools/simulate/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::part_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -130,3 +131,5 @@ TEST_CASE("the threshold and the reach of a tally", "[part]") {
   for (part::Outcome& outcome : tally.outcomes) outcome.found = false;
   CHECK_FALSE(part::reach_of(tally, 1));
 }
+
+}  // namespace posevote::part_test

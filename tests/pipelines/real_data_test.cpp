@@ -12,7 +12,8 @@
 #include "nodes/formats/write_ply.hpp"
 #include "tests/support/command.hpp"
 
-using namespace posevote;
+namespace posevote::real_data_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -163,3 +164,5 @@ TEST_CASE("real RGB-D images: what must be found", "[real]") {
   const nlohmann::json all = read_json(folder / "out/judged/evaluation.json")["all"];
   CHECK(all[0]["recall"].get<double>() >= expected.least_recall);
 }
+
+}  // namespace posevote::real_data_test

@@ -6,7 +6,8 @@
 #include "tests/support/bag_writer.hpp"
 #include "tests/support/small_images.hpp"
 
-using namespace posevote;
+namespace posevote::recordings_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -141,3 +142,5 @@ TEST_CASE("a damaged bag fails by name, and the scans beside it are answered", "
   CHECK_THAT(failures[0]["what"].get<std::string>(), Catch::Contains("is cut off"));
   CHECK(read_json(folder / "out/results.json")["frames"].size() == kFrames);
 }
+
+}  // namespace posevote::recordings_test

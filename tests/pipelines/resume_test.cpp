@@ -6,7 +6,8 @@
 #include "tests/pipelines/run_world.hpp"
 #include "tools/manifest/manifest.hpp"
 
-using namespace posevote;
+namespace posevote::resume_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -264,3 +265,5 @@ TEST_CASE("a damaged record is done again, and said", "[resume]") {
   CHECK_THAT(resumed.output, Contains("1 damaged records") && Contains("1 frames answered"));
   CHECK(rows_of(run.out) == whole_rows());
 }
+
+}  // namespace posevote::resume_test

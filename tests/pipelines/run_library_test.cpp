@@ -2,6 +2,8 @@
 // `posevote run` on what was trained before: libraries and caches.
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::run_library_test {
+
 using namespace posevote::test;
 
 TEST_CASE("a stale, a damaged and an unwritable cache", "[run]") {
@@ -89,3 +91,5 @@ TEST_CASE("a new library in the cache takes away what nobody has used for a mont
   for (const fs::path& gone : {old, torn}) CHECK_FALSE(fs::exists(gone));
   for (const fs::path& kept : {used, fresh, mine, notes}) CHECK(fs::exists(kept));
 }
+
+}  // namespace posevote::run_library_test

@@ -5,7 +5,8 @@
 #include "tests/pipelines/run_world.hpp"
 #include "tools/run_lock.hpp"
 
-using namespace posevote;
+namespace posevote::run_refused_test {
+
 using namespace posevote::test;
 
 TEST_CASE("arguments that contradict each other, or no run, end with status 2", "[run]") {
@@ -125,3 +126,5 @@ TEST_CASE("one run at a time writes into a folder", "[run]") {
   }
   CHECK(w.run("held", again).status == 0);
 }
+
+}  // namespace posevote::run_refused_test

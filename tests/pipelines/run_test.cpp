@@ -2,6 +2,8 @@
 // `posevote run` as users meet it: good and broken scans, shards, outputs, Ctrl-C.
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::run_test {
+
 using namespace posevote::test;
 
 TEST_CASE("broken scans fail by name and the others are answered", "[run]") {
@@ -182,3 +184,5 @@ TEST_CASE("overwrite takes away an earlier run, and nothing else", "[run]") {
   CHECK(frames("over").size() == 1);
   CHECK(fs::exists(w.folder / "over/of_mine.txt"));
 }
+
+}  // namespace posevote::run_test

@@ -4,6 +4,8 @@
 
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::schema_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("a run writes the formats that it is asked for", "[run]") {
   CHECK(fs::exists(out / "results.json"));
   CHECK(w.run("table", one + " --format json,csv --resume").status == 0);
 }
+
+}  // namespace posevote::schema_test

@@ -9,7 +9,8 @@
 #include "tests/pipelines/run_world.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::sensor_pose_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -194,3 +195,5 @@ TEST_CASE("a sensor's pose or a unit that cannot be is refused by name", "[run]"
   refused("--scene-unit inch", "--scene-unit: load_scene.unit: ");
   refused("--model-unit parsec", "--model-unit: load_models.unit: ");
 }
+
+}  // namespace posevote::sensor_pose_test

@@ -4,7 +4,8 @@
 
 #include "tests/pipelines/run_world.hpp"
 
-using namespace posevote;
+namespace posevote::slurm_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -63,3 +64,5 @@ TEST_CASE("a Slurm array with a task killed writes what one run would have", "[r
     logs += entry.path().filename().string().starts_with("shard-2.");
   CHECK(logs == 2);  // it was killed, and ran again
 }
+
+}  // namespace posevote::slurm_test

@@ -12,6 +12,8 @@
 
 #include "tests/support/small_images.hpp"
 
+namespace posevote::stream_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE("each good frame of a stream is answered, each broken one named", "[st
 }
 
 TEST_CASE("two thousand frames in the same memory", "[.long-stream]") { run_stream(2000, true); }
+
+}  // namespace posevote::stream_test

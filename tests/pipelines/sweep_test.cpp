@@ -2,6 +2,8 @@
 // `posevote sweep` beside `run` and `evaluate`.
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::sweep_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -152,3 +154,5 @@ TEST_CASE("a sweep says what is wrong, and where, before it begins", "[sweep]") 
   fs::rename(truth + ".away", truth);
   CHECK_FALSE(fs::exists(world().folder / "refused"));
 }
+
+}  // namespace posevote::sweep_test

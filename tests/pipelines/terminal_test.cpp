@@ -5,6 +5,8 @@
 
 #include "tests/pipelines/run_world.hpp"
 
+namespace posevote::terminal_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -140,3 +142,5 @@ TEST_CASE("a link to itself fails its own frame, and foreign files are told", "[
              Contains("2 files .tiff, 1 file .xyz passed over; .") && Contains(" files are read"));
   CHECK_THAT(run.output, !Contains(".txt") && !Contains(".json passed"));
 }
+
+}  // namespace posevote::terminal_test

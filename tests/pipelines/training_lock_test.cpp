@@ -8,7 +8,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::training_lock_test {
+
 using posevote::test::TemporaryFolder;
 
 TEST_CASE("one makes a library at a time, and who waited for it knows", "[pipelines]") {
@@ -51,3 +52,5 @@ TEST_CASE("who waits for a library may have enough of it", "[pipelines]") {
   });
   CHECK_THROWS_AS(TrainingLock(library, &activity), graph::Cancelled);
 }
+
+}  // namespace posevote::training_lock_test

@@ -7,7 +7,8 @@
 #include "tests/support/command.hpp"
 #include "tools/commands.hpp"
 
-using namespace posevote;
+namespace posevote::variants_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -80,3 +81,5 @@ TEST_CASE("the example of every node can be pasted into a pipeline", "[nodes]") 
         FAIL_CHECK(example(*spec) << "\n" << to_string(problem));
   }
 }
+
+}  // namespace posevote::variants_test

@@ -3,7 +3,8 @@
 // browser.
 #include "tests/pipelines/run_world.hpp"
 
-using namespace posevote;
+namespace posevote::view_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -157,3 +158,5 @@ TEST_CASE("the page in a browser: turning, ticks, filters, details", "[view]") {
   INFO(without.output);
   CHECK(without.status == 0);
 }
+
+}  // namespace posevote::view_test

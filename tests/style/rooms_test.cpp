@@ -11,7 +11,8 @@
 #include "graph/registry.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::rooms_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -139,3 +140,5 @@ TEST_CASE("no file is longer than 300 lines", "[style]") {
       CHECK(std::count(text.begin(), text.end(), '\n') <= 300);
     }
 }
+
+}  // namespace posevote::rooms_test

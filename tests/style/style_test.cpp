@@ -10,7 +10,8 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/commands.hpp"
 
-using namespace posevote;
+namespace posevote::style_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -83,3 +84,5 @@ TEST_CASE("PCL stays out of headers", "[style]") {
       CHECK(test::read_text(file).find("#include <pcl") == std::string::npos);
     }
 }
+
+}  // namespace posevote::style_test

@@ -11,7 +11,8 @@
 #include "tools/ablation/replay.hpp"
 #include "tools/ablation/variations.hpp"
 
-using namespace posevote;
+namespace posevote::ablation_test {
+
 using namespace posevote::ablation;
 
 namespace {
@@ -144,3 +145,5 @@ TEST_CASE("the table says what each change does, beside what there is", "[ablati
   CHECK(to_csv(sets, rows).find("lmo,segment_objects.x,off,0,20,13,4,1.5000\n") !=
         std::string::npos);
 }
+
+}  // namespace posevote::ablation_test

@@ -5,7 +5,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::bench_test {
+
 using posevote::test::TemporaryFolder;
 
 TEST_CASE("two benches are compared method by method and stage by stage", "[bench]") {
@@ -34,3 +35,5 @@ TEST_CASE("what is no bench is refused by name", "[bench]") {
   CHECK_THROWS_WITH(compare_benches(wrong, wrong), Catch::Contains("wrong.json"));
   CHECK_THROWS_WITH(compare_benches("nowhere.json", wrong), Catch::Contains("nowhere.json"));
 }
+
+}  // namespace posevote::bench_test

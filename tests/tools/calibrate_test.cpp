@@ -8,7 +8,8 @@
 #include "tools/calibrate/judged_poses.hpp"
 #include "tools/calibrate/logistic.hpp"
 
-using namespace posevote;
+namespace posevote::calibrate_test {
+
 using namespace posevote::test;
 
 TEST_CASE("logistic regression finds the odds that made the data", "[calibrate]") {
@@ -60,3 +61,5 @@ TEST_CASE("calibrate refuses what is no set", "[calibrate]") {
   CHECK(result.status == 2);
   CHECK_THAT(result.output, Catch::Contains("nothing"));
 }
+
+}  // namespace posevote::calibrate_test

@@ -5,7 +5,8 @@
 #include "tests/support/command.hpp"
 #include "tools/program.hpp"
 
-using namespace posevote;
+namespace posevote::command_line_test {
+
 using test::CommandResult;
 using test::TemporaryFolder;
 
@@ -128,3 +129,5 @@ TEST_CASE("train, run and evaluate with --json", "[command_line]") {
   CHECK(judged["all"][0]["recall"] == 1);
   CHECK(judged["instances"][0]["met"]["pose"] == 1);
 }
+
+}  // namespace posevote::command_line_test

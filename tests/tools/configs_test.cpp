@@ -4,6 +4,8 @@
 
 #include "tests/support/command.hpp"
 
+namespace posevote::configs_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -47,3 +49,5 @@ TEST_CASE("no descriptor takes a radius that its library cannot count with", "[c
   CHECK_THAT(run.output,
              Contains("describe_models.radius: '1e30' is not allowed, must be in [0.1, 200]"));
 }
+
+}  // namespace posevote::configs_test

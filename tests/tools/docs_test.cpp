@@ -8,7 +8,8 @@
 #include "tools/docs/man_page.hpp"
 #include "tools/program.hpp"
 
-using namespace posevote;
+namespace posevote::docs_test {
+
 using Words = std::vector<std::string>;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE("graph/README.md draws the default wiring: `posevote docs --wiring def
   const std::string readme = test::read_text(POSEVOTE_SOURCE_DIR "/graph/README.md");
   CHECK(readme.find("```mermaid\n" + drawing + "```\n") != std::string::npos);
 }
+
+}  // namespace posevote::docs_test

@@ -4,7 +4,8 @@
 
 #include "tests/tools/truth_set.hpp"
 
-using namespace posevote;
+namespace posevote::evaluate_adds_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -39,3 +40,5 @@ TEST_CASE("a column of confidences takes the place of the scores", "[evaluate]")
   CHECK_THROWS_WITH(read_results_csv(folder.write("b.csv", header + "1,3,1,7" + rest + "\n")),
                     Contains("b.csv:2: has 7 fields, expected 8"));
 }
+
+}  // namespace posevote::evaluate_adds_test

@@ -7,7 +7,8 @@
 #include "tests/tools/truth_set.hpp"
 #include "tools/evaluate/results_json.hpp"
 
-using namespace posevote;
+namespace posevote::evaluate_covariance_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -126,3 +127,5 @@ TEST_CASE("rows of results.csv get their covariances from the results.json besid
   CHECK(rows.size() == 3);
   CHECK_FALSE(rows[0].covariance);
 }
+
+}  // namespace posevote::evaluate_covariance_test

@@ -9,8 +9,7 @@
 #include "tools/evaluate/surface_discrepancy.hpp"
 #include "tools/evaluate/surface_points.hpp"
 
-using namespace posevote;
-
+namespace posevote::evaluate_errors_test {
 namespace {
 
 /// A box around the origin [m], two triangles a side.
@@ -243,3 +242,5 @@ TEST_CASE("expected calibration error by hand", "[evaluate]") {
         std::string::npos);
   CHECK(reliability_csv({{"hand", *calibration}}).find("hand,0.3,0.4,0,,\n") != std::string::npos);
 }
+
+}  // namespace posevote::evaluate_errors_test

@@ -2,7 +2,8 @@
 // The files that an evaluation reads: broken, contradictory, or lacking something.
 #include "tests/tools/truth_set.hpp"
 
-using namespace posevote;
+namespace posevote::evaluate_files_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -83,3 +84,5 @@ TEST_CASE("what an image lacks cannot be measured, and is said", "[evaluate]") {
   CHECK(got.all[2].counts.instances == 0);
   CHECK_THAT(to_text(got, true), Contains("needs a depth image") && Contains("3 instances left"));
 }
+
+}  // namespace posevote::evaluate_files_test

@@ -4,7 +4,8 @@
 
 #include "tests/tools/truth_set.hpp"
 
-using namespace posevote;
+namespace posevote::evaluate_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -163,3 +164,5 @@ TEST_CASE("average recall of MSSD by hand", "[evaluate]") {
       row(2, 0.9, kIdentity, "0 900 1000") + row(2, 0.8, kIdentity, "0 200 1000"), options);
   CHECK(cut.instances[2].met[0] == 0);
 }
+
+}  // namespace posevote::evaluate_test

@@ -9,7 +9,8 @@
 #include "tools/experiment/protocol.hpp"
 #include "tools/simulate/spec.hpp"
 
-using namespace posevote;
+namespace posevote::experiment_test {
+
 using Catch::Contains;
 using posevote::test::TemporaryFolder;
 
@@ -110,3 +111,5 @@ TEST_CASE("ranges takes our method alone, and at the scales asked for", "[experi
   command.name = "parts";
   CHECK_THROWS_WITH(methods_of(command), Contains("ranges"));
 }
+
+}  // namespace posevote::experiment_test

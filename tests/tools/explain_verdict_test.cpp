@@ -7,7 +7,8 @@
 #include "tools/explain/sentences.hpp"
 #include "tools/explain/verdict.hpp"
 
-using namespace posevote;
+namespace posevote::explain_verdict_test {
+
 using namespace posevote::explain;
 
 namespace {
@@ -112,7 +113,7 @@ TEST_CASE("each stage before the search is named by its figures", "[explain]") {
 
 TEST_CASE("a pose that would be sure, but was not looked at, was outranked where it went",
           "[explain]") {
-  const Verdict verdict = judge_case(missed(lost_at("sketch")));
+  const explain::Verdict verdict = judge_case(missed(lost_at("sketch")));
   CHECK(verdict.cause == Cause::kOutranked);
   CHECK(verdict.stage == "sketch");
 }
@@ -271,3 +272,5 @@ TEST_CASE("only settings that act on the stage are tried", "[explain]") {
   one.best->left.confidence = 0.01;  // nothing makes that one right
   CHECK(settings(Cause::kRefused, "votes").empty());
 }
+
+}  // namespace posevote::explain_verdict_test

@@ -8,7 +8,8 @@
 #include "tools/quantiles.hpp"
 #include "tools/stream/followed_scans.hpp"
 
-using namespace posevote;
+namespace posevote::follow_test {
+
 using namespace posevote::test;
 using namespace std::chrono_literals;
 using stream::FollowedScans;
@@ -170,3 +171,5 @@ TEST_CASE("a recording that is complete is not followed", "[follow]") {
   CHECK_THROWS_WITH(FollowedScans(folder / "none", false, kNever),
                     Catch::Contains("expected a folder"));
 }
+
+}  // namespace posevote::follow_test

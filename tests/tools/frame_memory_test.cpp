@@ -5,7 +5,8 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/stream/memory.hpp"
 
-using namespace posevote;
+namespace posevote::frame_memory_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -45,3 +46,5 @@ TEST_CASE("half of the machine's memory, unless another limit is asked for", "[m
   CHECK(stream::memory_limit(0) > 100'000'000);
   CHECK(stream::most_points(6400) == 100);
 }
+
+}  // namespace posevote::frame_memory_test

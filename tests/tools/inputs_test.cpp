@@ -6,7 +6,8 @@
 #include "nodes/formats/format.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::inputs_test {
+
 using posevote::test::TemporaryFolder;
 
 TEST_CASE("scans are numbered by one sort over files, folders and globs", "[inputs]") {
@@ -179,3 +180,5 @@ TEST_CASE("a recording's folder gives its scans with their cameras, beside other
   folder.write("camera.json", "{}");
   CHECK_THROWS_WITH(list_scenes({(folder / "images").string()}), Catch::Contains("camera.json"));
 }
+
+}  // namespace posevote::inputs_test

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+namespace posevote::line_chart_test {
+
 using namespace posevote::plot;
 using Catch::Contains;
 
@@ -37,3 +39,5 @@ TEST_CASE("charts side by side, empty ones and odd values", "[plot]") {
   CHECK_THAT(svg, Contains("width=\"920\"") && Contains("translate(460 0)"));
   CHECK_THAT(svg, !Contains("nan") && !Contains("inf"));
 }
+
+}  // namespace posevote::line_chart_test

@@ -8,7 +8,8 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/manifest/run_inputs.hpp"
 
-using namespace posevote;
+namespace posevote::manifest_test {
+
 using Catch::Contains;
 using posevote::test::read_text;
 using posevote::test::TemporaryFolder;
@@ -121,3 +122,5 @@ TEST_CASE("scans are found from where the run was started", "[manifest]") {
   CHECK_FALSE(other.camera);
   CHECK_THAT(RunInputs(folder / "none").why_not(), Contains("run.json: is not there"));
 }
+
+}  // namespace posevote::manifest_test

@@ -6,7 +6,7 @@
 #include "tools/progress/console.hpp"
 #include "tools/text.hpp"
 
-using namespace posevote;
+namespace posevote::progress_test {
 
 TEST_CASE("how far a task is, how fast it goes and what is left", "[progress]") {
   const Task frames{"frames", 200};
@@ -51,3 +51,5 @@ TEST_CASE("text for a terminal and for a shell", "[text]") {
   CHECK(console::cut_to_width("\u4e2d\u4e2d\u4e2d", 5) == "\u4e2d\u4e2d");
   CHECK(console::cut_to_width("", 5).empty());
 }
+
+}  // namespace posevote::progress_test

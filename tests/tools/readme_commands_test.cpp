@@ -7,7 +7,8 @@
 
 #include "tools/program.hpp"
 
-using namespace posevote;
+namespace posevote::readme_commands_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -103,3 +104,5 @@ TEST_CASE("every command in a README is one that the program takes", "[docs]") {
     CHECK(complaint(line.text) == "");
   }
 }
+
+}  // namespace posevote::readme_commands_test

@@ -8,7 +8,8 @@
 #include "tools/report/template.hpp"
 #include "tools/text.hpp"
 
-using namespace posevote;
+namespace posevote::report_html_test {
+
 using namespace posevote::test;
 
 TEST_CASE("base64 and the median are as everyone has them", "[report]") {
@@ -62,3 +63,5 @@ TEST_CASE("the page's template is that of the source", "[report]") {
   CHECK(html::kPageTemplate ==
         read_text(std::filesystem::path(POSEVOTE_SOURCE_DIR) / "tools/report/page.html"));
 }
+
+}  // namespace posevote::report_html_test

@@ -9,7 +9,8 @@
 #include "tools/report/pack.hpp"
 #include "tools/report/run_data.hpp"
 
-using namespace posevote;
+namespace posevote::report_pack_test {
+
 using namespace posevote::page;
 
 namespace {
@@ -140,3 +141,5 @@ TEST_CASE("a command line can be pasted into a shell", "[report]") {
   CHECK(shell_line({"posevote", "run", "a b", "it's", "", "x.y=[1]"}) ==
         "posevote run 'a b' 'it'\\''s' '' 'x.y=[1]'");
 }
+
+}  // namespace posevote::report_pack_test

@@ -12,7 +12,8 @@
 #include "tools/report/html.hpp"
 #include "tools/text.hpp"
 
-using namespace posevote;
+namespace posevote::report_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -294,3 +295,5 @@ TEST_CASE("posevote report and view on the command line", "[report]") {
   CHECK(full.status == 1);
   CHECK_THAT(full.output, Contains("/dev/full: cannot be written"));
 }
+
+}  // namespace posevote::report_test

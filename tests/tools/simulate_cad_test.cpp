@@ -11,7 +11,8 @@
 #include "tools/simulate/shapes.hpp"
 #include "tools/simulate/split_faces.hpp"
 
-using namespace posevote;
+namespace posevote::simulate_cad_test {
+
 using namespace posevote::simulate;
 
 namespace {
@@ -180,3 +181,5 @@ TEST_CASE("half of a carton's surface is seen from afar, of however few triangle
   const std::vector<double> seen = seen_surfaces({body}, find_sensor("plain"), view);
   CHECK(seen[0] == Approx(0.5).margin(0.02));
 }
+
+}  // namespace posevote::simulate_cad_test

@@ -7,8 +7,7 @@
 #include "tools/simulate/physics.hpp"
 #include "tools/simulate/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::simulate_physics_test {
 namespace {
 
 /// 1 inside a closed mesh, 0 outside: the solid angle that it covers, over 4 pi (van Oosterom,
@@ -84,3 +83,5 @@ TEST_CASE("what has settled stays, and depends on the seed alone", "[simulate]")
   CHECK(points.row(2).minCoeff() == Approx(0).margin(0.0015));
   CHECK((points.row(2).array() < points.row(2).minCoeff() + 0.002).count() > 20);
 }
+
+}  // namespace posevote::simulate_physics_test

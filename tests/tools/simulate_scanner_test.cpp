@@ -9,8 +9,7 @@
 #include "tools/simulate/scanner.hpp"
 #include "tools/simulate/surface_nets.hpp"
 
-using namespace posevote;
-
+namespace posevote::simulate_scanner_test {
 namespace {
 
 Body ball(double radius, const Eigen::Vector3d& center) {
@@ -213,3 +212,5 @@ TEST_CASE("the sweep leaves rows out, unevenly", "[simulate]") {
   CHECK(*least > 20);
   CHECK(*most > 50);
 }
+
+}  // namespace posevote::simulate_scanner_test

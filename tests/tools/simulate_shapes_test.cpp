@@ -8,8 +8,7 @@
 #include "tools/simulate/shapes.hpp"
 #include "tools/simulate/surface_nets.hpp"
 
-using namespace posevote;
-
+namespace posevote::simulate_shapes_test {
 namespace {
 
 double volume(const Mesh& mesh) {
@@ -94,3 +93,5 @@ TEST_CASE("of a painted thing those symmetries are left that its paint has", "[s
         symmetry_of("carton").turns.size());
   CHECK(painted_symmetry(symmetry_of("carton"), carton, Paint(carton, "carton", 1)).turns.empty());
 }
+
+}  // namespace posevote::simulate_shapes_test

@@ -17,7 +17,8 @@
 #include "tools/simulate/shapes.hpp"
 #include "tools/simulate/spec.hpp"
 
-using namespace posevote;
+namespace posevote::simulate_test {
+
 using Catch::Contains;
 using posevote::test::likeness_of;
 using posevote::test::read_text;
@@ -269,3 +270,5 @@ TEST_CASE("the demo's spec is sound", "[simulate]") {
   CHECK(spec.models.size() == 5);
   CHECK(spec.scenes.size() == 4);
 }
+
+}  // namespace posevote::simulate_test

@@ -9,7 +9,8 @@
 #include "graph/yaml_reader.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::sweep_test {
+
 using namespace posevote::sweep;
 
 namespace {
@@ -245,3 +246,5 @@ TEST_CASE("a rule by which nothing can be judged has no best setting", "[sweep]"
   CHECK(json["best"][0]["rule"] == "add");
   CHECK(to_svg(sweep).find(sweep.rules[1].rule.text) != std::string::npos);
 }
+
+}  // namespace posevote::sweep_test

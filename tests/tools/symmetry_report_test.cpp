@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace posevote;
+namespace posevote::symmetry_report_test {
 
 TEST_CASE("the symmetries of a model are listed a line each", "[train]") {
   Model model;
@@ -24,3 +24,5 @@ TEST_CASE("the symmetries of a model are listed a line each", "[train]") {
         "  a turn of 180 deg about (1 0 0)\n"
         "  near: a turn of 90 deg about (0 1 0); 20 % of the surface tells\n");
 }
+
+}  // namespace posevote::symmetry_report_test

@@ -10,7 +10,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::opencv_ppf_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -129,3 +130,5 @@ TEST_CASE("train_opencv_ppf names the model that it cannot train", "[baseline][p
   CHECK(message([&] { train({bumpy_model(1)}, "0.02"); }).find("too fine") != std::string::npos);
   CHECK(train({}).size() == 0);
 }
+
+}  // namespace posevote::opencv_ppf_test

@@ -5,7 +5,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::ransac_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -39,3 +40,5 @@ TEST_CASE("ransac keeps as many as it is asked for", "[baseline]") {
   REQUIRE(few.items.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK(few.items[i].support == all.items[i].support);
 }
+
+}  // namespace posevote::ransac_test

@@ -8,7 +8,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::rivals_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -80,3 +81,5 @@ TEST_CASE("no rival finds anything in two correspondences, or none, or one place
   scene.matches = {scene.matches.model, {}, {}, {}, {}};
   expect_nothing();
 }
+
+}  // namespace posevote::rivals_test

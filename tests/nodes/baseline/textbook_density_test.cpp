@@ -6,7 +6,8 @@
 #include "nodes/data/votes.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::textbook_density_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -46,3 +47,5 @@ TEST_CASE("the textbook's densities are ours to the last bit", "[baseline]") {
 TEST_CASE("the textbook has no densities of no votes", "[baseline]") {
   CHECK(run_node<VoteDensity>("textbook_density", {}, VoteSet{}).density.empty());
 }
+
+}  // namespace posevote::textbook_density_test

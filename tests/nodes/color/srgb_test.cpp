@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-using namespace posevote;
+namespace posevote::srgb_test {
 
 TEST_CASE("bytes become light and come back", "[color]") {
   for (int value = 0; value < 256; ++value)
@@ -25,3 +25,5 @@ TEST_CASE("CIELAB of colours whose values are known", "[color]") {
   CHECK((lab.row(2) - Eigen::RowVector3f(53.24F, 80.09F, 67.2F)).norm() < 0.2F);  // red
   CHECK((lab.row(3) - Eigen::RowVector3f(32.3F, 79.19F, -107.86F)).norm() < 0.2F);
 }
+
+}  // namespace posevote::srgb_test

@@ -4,8 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace posevote;
-
+namespace posevote::texture_color_test {
 namespace {
 
 /// Red, green; blue, white.
@@ -50,3 +49,5 @@ TEST_CASE("a face has the colours of its texture, or between those of its corner
         Eigen::RowVector3f(1, 0, 0));
   CHECK(color::point_colors(mesh).row(0) == Eigen::RowVector3f(0, 0, 1));
 }
+
+}  // namespace posevote::texture_color_test

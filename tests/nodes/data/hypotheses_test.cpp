@@ -3,8 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace posevote;
-
+namespace posevote::hypotheses_test {
 namespace {
 
 const Eigen::Vector3f kCenter(0.1F, -0.2F, 0.7F);
@@ -27,3 +26,5 @@ TEST_CASE("a pose becomes a hypothesis and comes back", "[data]") {
   CHECK(pose.support == 7);
   CHECK(T_scene_model_of(pose, kModelCenter).isApprox(T_scene_model, 1e-6));
 }
+
+}  // namespace posevote::hypotheses_test

@@ -3,7 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-using namespace posevote;
+namespace posevote::find_modes_test {
+
 using namespace posevote::density;
 
 namespace {
@@ -72,3 +73,5 @@ TEST_CASE("the runner-up is the densest vote elsewhere", "[density]") {
   CHECK(density::runner_up_density(votes, density, kOrigin, 0.4F) == 8);
   CHECK(density::runner_up_density(votes, density, kOrigin, 4.0F) == 0);
 }
+
+}  // namespace posevote::find_modes_test

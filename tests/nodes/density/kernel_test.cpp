@@ -19,7 +19,7 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/votes.hpp"
 
-namespace posevote {
+namespace posevote::kernel_test {
 namespace {
 
 constexpr float kDegree = static_cast<float>(std::numbers::pi / 180);
@@ -263,4 +263,4 @@ TEST_CASE("codes are the same wherever a rotation stands, on every instruction s
 }
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::kernel_test

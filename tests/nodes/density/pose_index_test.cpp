@@ -16,7 +16,7 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/votes.hpp"
 
-namespace posevote {
+namespace posevote::pose_index_test {
 namespace {
 
 using test::add_vote;
@@ -268,4 +268,4 @@ TEST_CASE("neighbours are the votes that make a density", "[vote]") {
 }
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::pose_index_test

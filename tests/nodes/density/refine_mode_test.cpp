@@ -7,7 +7,8 @@
 
 #include "nodes/density/pose_index.hpp"
 
-using namespace posevote;
+namespace posevote::refine_mode_test {
+
 using namespace posevote::density;
 
 namespace {
@@ -118,3 +119,5 @@ TEST_CASE("mean shift goes no farther than it may", "[density]") {
   CHECK(way({1}) > 0.001F);
   CHECK(way({10}) > way({1}));
 }
+
+}  // namespace posevote::refine_mode_test

@@ -4,7 +4,8 @@
 
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::colored_descriptors_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -63,3 +64,5 @@ TEST_CASE("what has no colours, or is white all over, is of one colour", "[descr
     CHECK((none - one).norm() < 1e-4F * none.norm());
   }
 }
+
+}  // namespace posevote::colored_descriptors_test

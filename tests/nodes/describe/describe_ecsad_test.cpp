@@ -5,7 +5,8 @@
 
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::describe_ecsad_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -81,3 +82,5 @@ TEST_CASE("ECSAD: what is not seen takes the mean of its shell", "[describe]") {
       half.points.row(i).setConstant(50);
   CHECK((describe_origin(half) - whole).cwiseAbs().maxCoeff() < 0.05F);
 }
+
+}  // namespace posevote::describe_ecsad_test

@@ -7,7 +7,8 @@
 #include "nodes/adapters/pcl_surface.hpp"
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::describe_fpfh_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -35,3 +36,5 @@ TEST_CASE("FPFH equals PCL's own class", "[describe]") {
   }
   CHECK(different <= ours.descriptors.rows() / 100);
 }
+
+}  // namespace posevote::describe_fpfh_test

@@ -4,7 +4,8 @@
 
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::describe_nd_histogram_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -46,3 +47,5 @@ TEST_CASE("NDHist: equal and opposite normals fall into the ends", "[describe]")
   CHECK(describe_pair(7.9F, 180)[127] > 0.5F);
   CHECK(describe_pair(2.5F, 60).isApprox(describe_pair(2.5F, 60, 1.1F), 1e-4F));
 }
+
+}  // namespace posevote::describe_nd_histogram_test

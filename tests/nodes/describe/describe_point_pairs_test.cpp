@@ -3,7 +3,8 @@
 
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::describe_point_pairs_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -103,3 +104,5 @@ TEST_CASE("point pairs: neighbours that face away do not count", "[describe]") {
       describe_origin(around_origin({{where, Eigen::Vector3f::UnitZ()}})), 1e-6F));
   CHECK(describe_points(around_origin({{where, away}, {-where, level}})).points.rows() == 0);
 }
+
+}  // namespace posevote::describe_point_pairs_test

@@ -3,7 +3,8 @@
 
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::describe_shot_test {
+
 using namespace posevote::test;
 
 TEST_CASE("SHOT: descriptors are of unit length, and a mirror changes them", "[describe]") {
@@ -15,3 +16,5 @@ TEST_CASE("SHOT: descriptors are of unit length, and a mirror changes them", "[d
       described("describe_shot", moved(body, mirror), 11, {{"radius", "8"}});
   CHECK(typical_difference(still, mirrored) > 0.05F);
 }
+
+}  // namespace posevote::describe_shot_test

@@ -8,7 +8,8 @@
 
 #include "tests/nodes/describe/described_body.hpp"
 
-using namespace posevote;
+namespace posevote::descriptors_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -202,3 +203,5 @@ TEST_CASE("what makes no sense is refused by all descriptors", "[describe]") {
     CHECK(describe(blind, {{0}}, kResolution).descriptors.rows() == 0);
   }
 }
+
+}  // namespace posevote::descriptors_test

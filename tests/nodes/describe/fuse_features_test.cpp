@@ -3,7 +3,8 @@
 
 #include "tests/nodes/match/small_library.hpp"
 
-using namespace posevote;
+namespace posevote::fuse_features_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -99,3 +100,5 @@ TEST_CASE("the descriptor that tells a point best matches it", "[match]") {
   scene.blocks = {};
   CHECK_THROWS_WITH(match(scene), Catch::Contains("blocks of 1 1"));
 }
+
+}  // namespace posevote::fuse_features_test

@@ -4,7 +4,8 @@
 #include "nodes/descriptors/octaves.hpp"
 #include "tests/nodes/match/small_library.hpp"
 
-using namespace posevote;
+namespace posevote::join_octaves_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -80,3 +81,5 @@ TEST_CASE("a model is judged at the scale of the scan", "[describe]") {
   CHECK(model.at(0.003F).resolution == 0.004F);
   CHECK(model.at(1).resolution == 0.004F);
 }
+
+}  // namespace posevote::join_octaves_test

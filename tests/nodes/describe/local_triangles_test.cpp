@@ -10,7 +10,8 @@
 #include "tests/nodes/describe/described_body.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::local_triangles_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -58,3 +59,5 @@ TEST_CASE("gaps stay open, and two sides of a thin wall apart", "[describe]") {
   for (const auto& corners : triangles_of(cloud, 1.5F))
     CHECK((corners[0] % 2 == corners[1] % 2 && corners[1] % 2 == corners[2] % 2));
 }
+
+}  // namespace posevote::local_triangles_test

@@ -10,8 +10,7 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::point_pair_sums_test {
 namespace {
 
 constexpr Eigen::Index kPoints = 1000;
@@ -60,3 +59,5 @@ TEST_CASE("point pairs have the same bits on every instruction set", "[describe]
   CHECK(here.count == best.count);
   CHECK(std::memcmp(&here.sums, &best.sums, sizeof here.sums) == 0);
 }
+
+}  // namespace posevote::point_pair_sums_test

@@ -10,8 +10,7 @@
 #include "nodes/descriptors/principal_axes.hpp"
 #include "tests/support/instruction_set.hpp"
 
-using namespace posevote;
-
+namespace posevote::descriptor_index_test {
 namespace {
 
 DescriptorMatrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
@@ -286,3 +285,5 @@ TEST_CASE("an index refuses what it cannot search", "[match]") {
     CHECK_THROWS_WITH(index.nearest_two(broken), Catch::Contains("not finite"));
   }
 }
+
+}  // namespace posevote::descriptor_index_test

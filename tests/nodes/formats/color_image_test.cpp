@@ -3,7 +3,8 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::color_image_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -41,3 +42,5 @@ TEST_CASE("damaged colour images are named as such", "[load][color]") {
   CHECK_THAT(error(jpeg.substr(0, jpeg.size() / 2)), has("damaged JPEG file"));
   CHECK_THAT(error(jpeg.substr(0, 30)), has("damaged JPEG file"));
 }
+
+}  // namespace posevote::color_image_test

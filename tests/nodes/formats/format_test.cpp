@@ -4,7 +4,8 @@
 #include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::format_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -54,3 +55,5 @@ TEST_CASE("a depth image is no cloud, and a cloud no depth image", "[formats]") 
              has("has the ending '.obj', expected .npy or .png"));
   CHECK(formats::read_depth_image(dir.path("a.png")).values == std::vector<std::uint16_t>{7});
 }
+
+}  // namespace posevote::format_test

@@ -7,7 +7,8 @@
 #include "nodes/layouts/files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::json_text_test {
+
 using Catch::Contains;
 using nlohmann::json;
 
@@ -78,3 +79,5 @@ TEST_CASE("what the JSON library says comes without its number", "[json]") {
     CHECK_THAT(formats::reason_of(error), !Contains("json.exception") && Contains("cannot use at"));
   }
 }
+
+}  // namespace posevote::json_text_test

@@ -7,7 +7,8 @@
 #include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::paint_mesh_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -197,3 +198,5 @@ TEST_CASE("the files that a mesh's colours are in are found without its points",
   CHECK(names("none.ply").empty());
   CHECK(names("box.stl").empty());
 }
+
+}  // namespace posevote::paint_mesh_test

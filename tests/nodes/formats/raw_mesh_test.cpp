@@ -3,7 +3,8 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::raw_mesh_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -58,3 +59,5 @@ TEST_CASE("Scan from a mesh: nothing left is an error", "[load]") {
   mesh.viewpoint = {0, 0, kNan};
   CHECK_THAT(error_of([&] { formats::to_scan(mesh, 1); }), has("viewpoint"));
 }
+
+}  // namespace posevote::raw_mesh_test

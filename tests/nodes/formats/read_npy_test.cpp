@@ -2,7 +2,8 @@
 #include "nodes/formats/depth_image.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_npy_test {
+
 using namespace posevote::test;
 using formats::DepthImage;
 
@@ -45,3 +46,5 @@ TEST_CASE("NumPy files that are no depth images say why", "[formats]") {
            {npy("<u2", "(1, 2)", two).substr(0, 30), "header claims"}})
     CHECK_THAT(error_of([&, &damaged = bytes] { read(damaged); }), Catch::Contains(what));
 }
+
+}  // namespace posevote::read_npy_test

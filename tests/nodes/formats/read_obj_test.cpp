@@ -2,7 +2,8 @@
 #include "nodes/formats/raw_mesh.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_obj_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -83,3 +84,5 @@ TEST_CASE("OBJ: damage names its line", "[load][obj]") {
   CHECK_THAT(obj_error(kSquare + "f 1//1 2//1 3//1\n"), has("normal 1, the file has 0"));
   CHECK_THAT(obj_error(kSquare + "f 1// 2 3\n"), has("found ''"));
 }
+
+}  // namespace posevote::read_obj_test

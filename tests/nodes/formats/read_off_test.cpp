@@ -2,7 +2,8 @@
 #include "nodes/formats/raw_mesh.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_off_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -57,3 +58,5 @@ TEST_CASE("OFF: damage", "[load][off]") {
   CHECK_THAT(off_error("OFF\n3 1 0\n" + kSquare + "3 0 1 2\n"), has("line 7: more"));
   CHECK_THAT(off_error("OFF\n1 0 0\n1 2 3 4\n"), has("line 3: more than 3 numbers"));
 }
+
+}  // namespace posevote::read_off_test

@@ -8,7 +8,8 @@
 #include "nodes/formats/raw_mesh.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_pcd_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -223,3 +224,5 @@ TEST_CASE("PCD: damage in ascii data names its line", "[load][pcd]") {
              has("ends after line 12, expected point 2 of 2"));
   CHECK_THAT(pcd_error(head + "1 2 3\n4 5 6\n7 8 9\n"), has("line 14: more in the file"));
 }
+
+}  // namespace posevote::read_pcd_test

@@ -7,7 +7,8 @@
 #include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_ply_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -233,3 +234,5 @@ TEST_CASE("PLY: the laser scan rs1", "[load][ply]") {
   // The sensor stands at the origin, and normals point to it.
   CHECK((scan.points.cwiseProduct(scan.normals).rowwise().sum().array() > 0).count() == 0);
 }
+
+}  // namespace posevote::read_ply_test

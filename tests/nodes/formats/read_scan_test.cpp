@@ -3,7 +3,8 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_scan_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -55,3 +56,5 @@ TEST_CASE("Files that cannot be read say why", "[load]") {
   std::filesystem::resize_file(dir.write("sparse.ply", "x"), std::uintmax_t{1} << 36);
   CHECK_THAT(read_error(dir.path("sparse.ply")), has("68719476736 bytes, expected at most"));
 }
+
+}  // namespace posevote::read_scan_test

@@ -2,7 +2,8 @@
 #include "nodes/formats/raw_mesh.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_stl_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -76,3 +77,5 @@ TEST_CASE("STL: damage", "[load][stl]") {
              has("line 5: expected vertex, found 'endloop'"));
   CHECK_THAT(stl_error("solid a\n" + kFacet), has("ends after line 8, before endsolid"));
 }
+
+}  // namespace posevote::read_stl_test

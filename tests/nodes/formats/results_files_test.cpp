@@ -6,7 +6,8 @@
 #include "nodes/formats/scan_hash.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::results_files_test {
+
 using Catch::Contains;
 using posevote::test::read_text;
 using posevote::test::TemporaryFolder;
@@ -206,3 +207,5 @@ TEST_CASE("results that no run wrote are named, without the JSON library's words
       formats::resume_results(folder.path(), {}),
       Contains("results.json: is not what a run wrote: ") && !Contains("json.exception"));
 }
+
+}  // namespace posevote::results_files_test

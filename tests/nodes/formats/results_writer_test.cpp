@@ -10,7 +10,8 @@
 #include "nodes/formats/results_tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::results_writer_test {
+
 using posevote::test::read_text;
 using posevote::test::TemporaryFolder;
 
@@ -200,3 +201,5 @@ TEST_CASE("a full disk keeps what is written and names the file", "[write]") {
   list.append("2");
   CHECK(json(folder / "list.json") == nlohmann::json::parse("[1, 2]"));
 }
+
+}  // namespace posevote::results_writer_test

@@ -5,7 +5,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::scan_hash_test {
+
 using posevote::test::TemporaryFolder;
 
 TEST_CASE("a scan is told by its bytes and by the pose beside it, not by its name", "[formats]") {
@@ -34,3 +35,5 @@ TEST_CASE("a scan is told by its bytes and by the pose beside it, not by its nam
   in_memory.depth = std::make_shared<const LoadedDepth>();
   CHECK(formats::hash_scan(in_memory).empty());
 }
+
+}  // namespace posevote::scan_hash_test

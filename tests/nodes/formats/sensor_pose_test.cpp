@@ -5,7 +5,8 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::sensor_pose_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -48,3 +49,5 @@ TEST_CASE("sensor pose: what it cannot be is said", "[formats]") {
 TEST_CASE("sensor pose: the file beside a scan", "[formats]") {
   CHECK(formats::pose_file_of("scans/part.7.ply") == "scans/part.7.pose");
 }
+
+}  // namespace posevote::sensor_pose_test

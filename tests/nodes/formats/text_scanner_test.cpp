@@ -3,7 +3,8 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::text_scanner_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -54,3 +55,5 @@ TEST_CASE("Lines are counted, blank ones and comments skipped", "[load][text]") 
   CHECK_FALSE(in.next_line());
   CHECK(in.line_done());
 }
+
+}  // namespace posevote::text_scanner_test

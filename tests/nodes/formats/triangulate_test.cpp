@@ -6,7 +6,8 @@
 #include "nodes/formats/read_scan.hpp"
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::triangulate_test {
+
 using namespace posevote::formats;
 using namespace posevote::test;
 
@@ -123,3 +124,5 @@ TEST_CASE("files with concave polygons, of every format that has polygons", "[fo
     CHECK(area(mesh) == Approx(3));
   }
 }
+
+}  // namespace posevote::triangulate_test

@@ -5,7 +5,7 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::units_test {
 
 TEST_CASE("units of length", "[formats]") {
   CHECK(formats::metres_per("mm") == 0.001);
@@ -52,3 +52,5 @@ TEST_CASE("the unit that a file is likely in", "[formats]") {
   CHECK_THAT(formats::likely_unit(4, 10).doubt, test::has("4 could be mm or m: read as m"));
   CHECK_THAT(formats::likely_unit(29, 10).doubt, test::has("29 could be mm or m: read as mm"));
 }
+
+}  // namespace posevote::units_test

@@ -7,7 +7,8 @@
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::write_ply_test {
+
 using namespace posevote::formats;
 using posevote::test::read_text;
 using posevote::test::TemporaryFolder;
@@ -99,3 +100,5 @@ TEST_CASE("a place that cannot be written to is named", "[write]") {
                     Catch::Contains("b.ply: cannot be"));
   CHECK_FALSE(std::filesystem::exists(folder / "b.ply.part"));
 }
+
+}  // namespace posevote::write_ply_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/box_cloud.hpp"
 
-using namespace posevote;
-
+namespace posevote::contour_pairs_test {
 namespace {
 
 constexpr float kStep = 0.002F;
@@ -108,3 +107,5 @@ TEST_CASE("no contour is looked for where none is wanted, or nobody knows free s
   can.scan.normals *= -1;  // no single view
   CHECK(can.pairs(pose).empty());
 }
+
+}  // namespace posevote::contour_pairs_test

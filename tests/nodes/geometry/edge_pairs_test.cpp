@@ -7,7 +7,8 @@
 #include "nodes/geometry/outline.hpp"
 #include "tests/nodes/geometry/flat_carton.hpp"
 
-using namespace posevote;
+namespace posevote::edge_pairs_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -81,3 +82,5 @@ TEST_CASE("what ends behind something nearer does not hold a face", "[segment]")
   start.translation().x() += 0.003;
   CHECK(off(carton.refined(start, 300), carton.truth) < 0.0006);
 }
+
+}  // namespace posevote::edge_pairs_test

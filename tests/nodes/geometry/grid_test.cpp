@@ -8,8 +8,7 @@
 
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::grid_test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -151,3 +150,5 @@ TEST_CASE("PointGrid's pieces are short and hold each point once", "[prepare]") 
   CHECK(std::count(times.begin(), times.end(), 1) == 3000);
   for (const float length : {-1.0F, std::nanf("")}) CHECK(grid.pieces(length).size() == 3000);
 }
+
+}  // namespace posevote::grid_test

@@ -7,7 +7,8 @@
 
 #include "tests/support/bumpy_scene.hpp"
 
-using namespace posevote;
+namespace posevote::icp_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -190,3 +191,5 @@ TEST_CASE("ICP ends where partners only come and go, and follows what slides if 
   CHECK(steps_of(pull(false), false) < 20);
   CHECK(steps_of(pull(false), true) == kParams.iterations);
 }
+
+}  // namespace posevote::icp_test

@@ -5,8 +5,7 @@
 
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::near_surface_test {
 namespace {
 
 /// Points in a ball of half a metre, with normals that have nothing to do with their places.
@@ -43,3 +42,5 @@ TEST_CASE("whether a surface is near does not hang on where it was asked for bef
   CHECK(near > 20);
   CHECK(near < 1980);
 }
+
+}  // namespace posevote::near_surface_test

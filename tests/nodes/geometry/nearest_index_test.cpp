@@ -9,8 +9,7 @@
 #include "nodes/geometry/scan_surface.hpp"
 #include "tests/support/instruction_set.hpp"
 
-using namespace posevote;
-
+namespace posevote::nearest_index_test {
 namespace {
 
 constexpr float kReach = 0.01F;
@@ -119,3 +118,5 @@ TEST_CASE("nothing is near nothing", "[prepare]") {
   near.hide({1});
   CHECK(!near.nearest({0, 0, 0}, kReach));
 }
+
+}  // namespace posevote::nearest_index_test

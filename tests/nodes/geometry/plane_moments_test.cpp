@@ -8,8 +8,7 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::plane_moments_test {
 namespace {
 
 constexpr Eigen::Index kPoints = 500;
@@ -66,3 +65,5 @@ TEST_CASE("plane moments have the same bits on every instruction set", "[prepare
   const geometry::PlaneMoments here = sums();
   CHECK(std::memcmp(&here, &best, sizeof here) == 0);
 }
+
+}  // namespace posevote::plane_moments_test

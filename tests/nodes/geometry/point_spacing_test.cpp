@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-using namespace posevote;
-
+namespace posevote::point_spacing_test {
 namespace {
 
 /// The upper median of each point's distance to the nearest that is elsewhere, by asking all.
@@ -71,3 +70,5 @@ TEST_CASE("points in one place have no spacing, in two that between them", "[pre
   points.bottomRows(4000).setConstant(0.75F);
   CHECK(geometry::point_spacing(points) == Approx(0.25 * std::sqrt(3.0)));
 }
+
+}  // namespace posevote::point_spacing_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-using namespace posevote;
-
+namespace posevote::radix_sort_test {
 namespace {
 
 template <class Key>
@@ -56,3 +55,5 @@ TEST_CASE("ordered_bits order as floats do", "[prepare]") {
     CHECK(geometry::ordered_bits(ascending[i - 1]) < geometry::ordered_bits(ascending[i]));
   CHECK(geometry::ordered_bits(-0.0F) == geometry::ordered_bits(0.0F));
 }
+
+}  // namespace posevote::radix_sort_test

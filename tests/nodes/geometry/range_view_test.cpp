@@ -5,7 +5,8 @@
 
 #include "tests/support/bumpy_scene.hpp"
 
-using namespace posevote;
+namespace posevote::range_view_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -72,3 +73,5 @@ TEST_CASE("a view of absurd extent takes bounded memory and time", "[segment]") 
   const geometry::RangeView view(scan, 1e-6F);
   CHECK(view.measured_range({std::nanf(""), 0, 1}) == 0);
 }
+
+}  // namespace posevote::range_view_test

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-using namespace posevote;
+namespace posevote::select_rows_test {
 
 TEST_CASE("rows of a scan or a mesh go with their normals, without faces", "[geometry]") {
   Scan scan;
@@ -23,3 +23,5 @@ TEST_CASE("rows of a scan or a mesh go with their normals, without faces", "[geo
   CHECK(mesh.points == scan.points.middleRows(1, 2));
   CHECK(mesh.normals == scan.normals.middleRows(1, 2));
 }
+
+}  // namespace posevote::select_rows_test

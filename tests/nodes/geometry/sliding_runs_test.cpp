@@ -6,7 +6,7 @@
 
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::sliding_runs_test {
 
 TEST_CASE("runs that slide along a rod hold what is around each of its points", "[prepare]") {
   const PointMatrix points = test::shaken(PointMatrix::Zero(2000, 3), 0.5F);
@@ -31,3 +31,5 @@ TEST_CASE("runs that slide along a rod hold what is around each of its points", 
     });
   CHECK(visited.size() == 2000);
 }
+
+}  // namespace posevote::sliding_runs_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/votes.hpp"
 
-using namespace posevote;
-
+namespace posevote::spread_test {
 namespace {
 
 Eigen::Matrix3d turned(const Eigen::Vector3d& eigenvalues, std::mt19937& random) {
@@ -58,3 +57,5 @@ TEST_CASE("points on a line, in one place or nowhere spread across nothing", "[p
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     CHECK(geometry::spread_of(Eigen::Matrix3d::Constant(bad)).across.isZero());
 }
+
+}  // namespace posevote::spread_test

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace posevote;
+namespace posevote::twist_test {
 
 TEST_CASE("a motion and its twist belong together", "[geometry]") {
   for (const double angle : {0.0, 1e-12, 1e-5, 0.3, 3.0, M_PI - 1e-9}) {
@@ -28,3 +28,5 @@ TEST_CASE("the turn comes last, and shifts what is off the origin", "[geometry]"
   const Eigen::Vector3d shift = twist.head<3>(), turn = twist.tail<3>();
   CHECK((turn.cross(Eigen::Vector3d::UnitX()) + shift).norm() == Approx(0).margin(1e-12));
 }
+
+}  // namespace posevote::twist_test

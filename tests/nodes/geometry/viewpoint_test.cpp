@@ -4,8 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace posevote;
-
+namespace posevote::viewpoint_test {
 namespace {
 
 /// Balls of 10 cm on a table, by what faces a sensor at the origin from 1 m.
@@ -113,3 +112,5 @@ TEST_CASE("the place that most normals point to is the sensor's, roughly", "[geo
     CHECK(*geometry::share_facing(scan, place) > 0.95);
   }
 }
+
+}  // namespace posevote::viewpoint_test

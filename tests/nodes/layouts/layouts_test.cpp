@@ -7,7 +7,8 @@
 #include "nodes/layouts/layout.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::layouts_test {
+
 using namespace posevote::layouts;
 using Catch::Contains;
 using posevote::test::TemporaryFolder;
@@ -241,3 +242,5 @@ TEST_CASE("poses of an image that is not there", "[dataset]") {
   CHECK(truth.instances.size() == 1);
   CHECK(truth.left_out.contains({5, 8}));
 }
+
+}  // namespace posevote::layouts_test

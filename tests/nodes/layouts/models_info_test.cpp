@@ -5,7 +5,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::models_info_test {
+
 using Catch::Contains;
 using posevote::test::TemporaryFolder;
 
@@ -55,3 +56,5 @@ TEST_CASE("what is wrong with listed symmetries is told with file and object", "
   CHECK_THROWS_WITH(read(R"({"12": 5})"), Contains("object 12"));
   CHECK_THROWS_WITH(read(R"({"can": {}})"), Contains("models_info.json: \"can\" is no obj_id"));
 }
+
+}  // namespace posevote::models_info_test

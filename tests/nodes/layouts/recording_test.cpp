@@ -7,7 +7,8 @@
 #include "nodes/layouts/camera_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::recording_test {
+
 using namespace posevote::layouts;
 using Catch::Contains;
 using posevote::test::TemporaryFolder;
@@ -107,3 +108,5 @@ TEST_CASE("a camera is read in each way of writing it", "[layouts]") {
   CHECK_THROWS_WITH(camera("intrinsics.txt", "1 2 3"),
                     Contains("intrinsics.txt") && Contains("has 3 numbers, expected fx fy cx cy"));
 }
+
+}  // namespace posevote::recording_test

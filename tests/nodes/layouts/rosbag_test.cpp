@@ -8,7 +8,8 @@
 #include "tests/support/bag_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::rosbag_test {
+
 using namespace posevote::test;
 using Catch::Contains;
 
@@ -202,3 +203,5 @@ TEST_CASE("an image of a bag that contradicts itself fails alone", "[layouts][ba
   CHECK_THAT(error(3), has("3 x 9 pixels with 4 bytes"));
   CHECK_THAT(error(4), has("an image of 'mono8', expected 16UC1 or 32FC1"));
 }
+
+}  // namespace posevote::rosbag_test

@@ -7,7 +7,8 @@
 
 #include "tests/nodes/match/small_library.hpp"
 
-using namespace posevote;
+namespace posevote::check_library_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -91,3 +92,5 @@ TEST_CASE("a library without models or resolution is refused", "[match]") {
   library.models.clear();
   CHECK_THROWS_WITH(library::check_library(library), Catch::Contains("no models"));
 }
+
+}  // namespace posevote::check_library_test

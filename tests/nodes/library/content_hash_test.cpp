@@ -5,7 +5,8 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::content_hash_test {
+
 using namespace posevote::test;
 namespace fs = std::filesystem;
 
@@ -34,3 +35,5 @@ TEST_CASE("the hash of a large file covers all of it", "[match]") {
   text.back() = 'y';
   CHECK(hash != library::hash_files({folder.write("a", text)}, ""));
 }
+
+}  // namespace posevote::content_hash_test

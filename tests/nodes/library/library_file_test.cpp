@@ -16,7 +16,8 @@
 #include "tests/nodes/match/small_library.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::library_file_test {
+
 using namespace posevote::test;
 namespace fs = std::filesystem;
 
@@ -281,3 +282,5 @@ TEST_CASE("a full disk leaves nothing behind, and the old file as it was", "[mat
   CHECK(files_in(folder.path()) == 1);
   CHECK(refusal(folder / "a").empty());
 }
+
+}  // namespace posevote::library_file_test

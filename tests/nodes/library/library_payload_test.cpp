@@ -9,7 +9,8 @@
 
 #include "tests/nodes/match/small_library.hpp"
 
-using namespace posevote;
+namespace posevote::library_payload_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -65,3 +66,5 @@ TEST_CASE("whatever a payload holds, what is decoded from it is sound", "[match]
   CHECK(decoded > 0);  // a name, a descriptor or a hundredth of a millimetre may be anything
   CHECK(decoded < 3600);
 }
+
+}  // namespace posevote::library_payload_test

@@ -5,7 +5,8 @@
 #include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::check_size_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -90,3 +91,5 @@ TEST_CASE("check_size: nothing to compare is an error", "[load]") {
   CHECK_THAT(size_error(Scan{}, library({0.3F})), has("no points"));
   CHECK_THAT(size_error(cube(1), ModelLibrary{}), has("library is empty"));
 }
+
+}  // namespace posevote::check_size_test

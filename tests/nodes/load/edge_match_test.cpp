@@ -6,7 +6,8 @@
 #include <limits>
 #include <random>
 
-using namespace posevote;
+namespace posevote::edge_match_test {
+
 using load::is_of_one_view;
 
 namespace {
@@ -102,3 +103,5 @@ TEST_CASE("edge match: where nothing can be told, colours match", "[load][color]
     std::fill(color.values.begin(), color.values.end(), std::uint8_t{77});
   }))));
 }
+
+}  // namespace posevote::edge_match_test

@@ -5,7 +5,8 @@
 #include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::load_models_test {
+
 using namespace posevote::test;
 
 TEST_CASE("load_models: one cloud a file, in order", "[load]") {
@@ -62,3 +63,5 @@ TEST_CASE("load_models: errors name every file that could not be read", "[load]"
             ": line 1: ends where a number was expected");
   CHECK_THAT(error_of([&] { load({}); }), has("no models"));
 }
+
+}  // namespace posevote::load_models_test

@@ -5,7 +5,8 @@
 #include "tests/nodes/formats/support.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::load_scene_test {
+
 using namespace posevote::test;
 
 TEST_CASE("load_scene: point files in mm and m", "[load]") {
@@ -140,3 +141,5 @@ TEST_CASE("load_scene: a missing file", "[load]") {
     CHECK(error_of([&] { run_node<Scan>("load_scene", {}, scene); }) == "there is no such file");
   }
 }
+
+}  // namespace posevote::load_scene_test

@@ -3,7 +3,8 @@
 
 #include "tests/nodes/formats/support.hpp"
 
-using namespace posevote;
+namespace posevote::read_depth_test {
+
 using namespace posevote::load;
 using namespace posevote::test;
 
@@ -111,3 +112,5 @@ TEST_CASE("Depth image: cut off anywhere is an error", "[load][depth]") {
     CHECK(depth_error(whole.substr(0, size)) != "(no error)");
   CHECK_THAT(depth_error(whole.substr(0, whole.size() - 20)), has("the file ends too early"));
 }
+
+}  // namespace posevote::read_depth_test

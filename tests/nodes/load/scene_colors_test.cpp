@@ -9,7 +9,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::scene_colors_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -136,3 +137,5 @@ TEST_CASE("sample_surface: samples have the colours of their places", "[train][c
   REQUIRE(cloud.colors.rows() == cloud.points.rows());
   CHECK(cloud.colors.isApprox(10 * cloud.points, 1e-4F));
 }
+
+}  // namespace posevote::scene_colors_test

@@ -3,7 +3,8 @@
 
 #include "tests/nodes/match/small_library.hpp"
 
-using namespace posevote;
+namespace posevote::match_features_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -87,3 +88,5 @@ TEST_CASE("matching refuses descriptors of another length and a library without 
   library.octaves.clear();
   CHECK_THROWS_WITH(match({1}, library), Catch::Contains("no index"));
 }
+
+}  // namespace posevote::match_features_test

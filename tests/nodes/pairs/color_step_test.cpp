@@ -5,8 +5,7 @@
 
 #include "nodes/color/srgb.hpp"
 
-using namespace posevote;
-
+namespace posevote::color_step_test {
 namespace {
 
 Eigen::Vector3f lab(float red, float green, float blue) {
@@ -44,3 +43,5 @@ TEST_CASE("colours beyond all levels are told as the last", "[pairs]") {
   const Eigen::Vector3f far(500, 500, -500), near(0, 0, 0);
   CHECK(alike(pairs::color_step(near, far), pairs::color_step(near, 2 * far)));
 }
+
+}  // namespace posevote::color_step_test

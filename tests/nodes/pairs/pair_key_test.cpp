@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace posevote::pair_key_test {
+
 using namespace posevote::pairs;
 
 namespace {
@@ -48,3 +50,5 @@ TEST_CASE("bins of angles are those of the arc cosine, but for rounding", "[pair
   CHECK(angle_bin(angle_step(1.0001F)) == 0);
   CHECK(angle_bin(angle_step(-1.0001F)) == 14);
 }
+
+}  // namespace posevote::pair_key_test

@@ -11,8 +11,7 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::pair_table_test {
 namespace {
 
 Cloud ball(int count) {
@@ -97,3 +96,5 @@ TEST_CASE("steps that fit no model are refused", "[pairs]") {
   CHECK_THROWS_AS(pairs::PairTable(ball(60), 0.01F, std::numeric_limits<float>::quiet_NaN()),
                   std::runtime_error);
 }
+
+}  // namespace posevote::pair_table_test

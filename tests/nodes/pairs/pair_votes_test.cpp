@@ -5,7 +5,8 @@
 
 #include "tests/support/bumpy_scene.hpp"
 
-using namespace posevote;
+namespace posevote::pair_votes_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -109,3 +110,5 @@ TEST_CASE("pairs of like colours count several times, and others still count", "
     CHECK(best(plain, right, i) == shape);         // a model without
   }
 }
+
+}  // namespace posevote::pair_votes_test

@@ -9,8 +9,7 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::pairs_around_test {
 namespace {
 
 Cloud strewn(Eigen::Index count) {
@@ -82,3 +81,5 @@ TEST_CASE("pairs that are found many at once are those of one at a time, to the 
   CHECK(told > 1000);
   CHECK(flat > 1000);
 }
+
+}  // namespace posevote::pairs_around_test

@@ -8,7 +8,8 @@
 #include "tests/support/box_cloud.hpp"
 #include "tests/support/bumpy_scene.hpp"
 
-using namespace posevote;
+namespace posevote::rims_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -92,3 +93,5 @@ TEST_CASE("however many ends a model has, its table stays small", "[pairs]") {
   CHECK(table->points().size() > 500);
   CHECK(table->points().size() <= 1500);
 }
+
+}  // namespace posevote::rims_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::thin_surface_test {
 namespace {
 
 /// Two walls that meet in the edge x = z = 0: z = 0 for x < 0, and x = 0 for z < 0.
@@ -65,3 +64,5 @@ TEST_CASE("a thin surface has the mean colours of its points", "[pairs]") {
   for (Eigen::Index i = 0; i < thin.points.rows(); ++i)
     CHECK(thin.colors(i, 0) == Approx(thin.normals(i, 2) > 0.5F ? 1.0F : 0.25F));
 }
+
+}  // namespace posevote::thin_surface_test

@@ -12,7 +12,8 @@
 #include "tests/support/instruction_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::canvas_test {
+
 using posevote::test::Picture;
 using posevote::test::TemporaryFolder;
 
@@ -179,3 +180,5 @@ TEST_CASE("a picture that cannot be written is named and leaves nothing behind",
   for (const std::string left : {"b.png.part", "c.png", "c.png.part"})
     CHECK_FALSE(std::filesystem::exists(folder / left));
 }
+
+}  // namespace posevote::canvas_test

@@ -11,7 +11,8 @@
 #include "nodes/poses/twins.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::color_fit_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -194,3 +195,5 @@ TEST_CASE("colours add to the confidence by their weights", "[poses][color]") {
   CHECK(confidence() == Approx(probability_of(log_odds_of(candidate.clues, ConfidenceTerms()) +
                                               std::log(terms.doubt))));
 }
+
+}  // namespace posevote::color_fit_test

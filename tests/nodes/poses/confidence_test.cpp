@@ -6,7 +6,8 @@
 #include "nodes/poses/score.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::confidence_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -76,3 +77,5 @@ TEST_CASE("the true pose is believed, one beside it less, one elsewhere not", "[
   CHECK(confidence(beside(0.006, 0.3)) < confidence(beside(0)));
   CHECK(confidence(beside(0.5)) == 0);
 }
+
+}  // namespace posevote::confidence_test

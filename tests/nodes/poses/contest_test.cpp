@@ -5,7 +5,8 @@
 
 #include "tests/support/box_cloud.hpp"
 
-using namespace posevote;
+namespace posevote::contest_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -68,3 +69,5 @@ TEST_CASE("what was taken out of the scan is nobody's", "[poses]") {
   contest.state.take_out(contest.part, gone.T_scene_model, 2 * kSpacing);
   CHECK_FALSE(contest.whole_first(0.9, 0.9));
 }
+
+}  // namespace posevote::contest_test

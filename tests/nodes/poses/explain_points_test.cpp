@@ -6,7 +6,8 @@
 
 #include "tests/support/bumpy_scene.hpp"
 
-using namespace posevote;
+namespace posevote::explain_points_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -70,3 +71,5 @@ TEST_CASE("points that are not finite are never explained", "[poses]") {
   CHECK(explained[1] == 0);
   CHECK(explained[2] == 1);
 }
+
+}  // namespace posevote::explain_points_test

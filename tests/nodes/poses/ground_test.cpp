@@ -6,8 +6,7 @@
 #include "nodes/geometry/extreme_points.hpp"
 #include "tests/support/box_cloud.hpp"
 
-using namespace posevote;
-
+namespace posevote::ground_test {
 namespace {
 
 constexpr float kEdge = 0.1F, kSpacing = 0.002F, kDepth = 2 * kSpacing;  // [m]
@@ -77,3 +76,5 @@ TEST_CASE("where nothing is flat there is no ground", "[poses]") {
             .share_inside(cube(), Eigen::Isometry3d::Identity(),
                           geometry::RangeView(scan, kSpacing)) == 0);
 }
+
+}  // namespace posevote::ground_test

@@ -7,7 +7,8 @@
 #include "tests/support/box_cloud.hpp"
 #include "tests/support/bumpy_scene.hpp"
 
-using namespace posevote;
+namespace posevote::measure_fit_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -278,3 +279,5 @@ TEST_CASE("nothing to judge scores 0", "[poses]") {
   CHECK(poses::fit_quality(fit_of(empty, scan_of({kBody}), kBody.T_scene_model)) == 0);
   CHECK(poses::fit_quality(fit_of(bumpy_model(1)->cloud, empty, kBody.T_scene_model)) == 0);
 }
+
+}  // namespace posevote::measure_fit_test

@@ -7,7 +7,8 @@
 #include "nodes/poses/score.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::memory_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -71,3 +72,5 @@ TEST_CASE("who remembers judges and refines as who does not, whatever is taken o
   for (const Eigen::Isometry3d& start : starts) check(start);
   CHECK(check(starts[0]) < before / 10);
 }
+
+}  // namespace posevote::memory_test

@@ -6,7 +6,8 @@
 
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::object_search_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -62,3 +63,5 @@ TEST_CASE("of what was not found among many places no more are asked for", "[pos
   CHECK(asks_again(beside(0), 1000));
   CHECK(asks_again(beside(0.4), 1));  // the paper's: the densest mode may be a false one
 }
+
+}  // namespace posevote::object_search_test

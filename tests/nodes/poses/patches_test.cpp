@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-using namespace posevote;
-
+namespace posevote::patches_test {
 namespace {
 
 constexpr int kSide = 60;  // points along each side of a square metre
@@ -46,3 +45,5 @@ TEST_CASE("where patches have single points nothing tells what they share", "[po
   CHECK(poses::shared_deviation(points.leftCols(1), noise(1, 1), 0.1F) == 0);
   CHECK(poses::shared_deviation(points.leftCols(0), {}, 0.1F) == 0);
 }
+
+}  // namespace posevote::patches_test

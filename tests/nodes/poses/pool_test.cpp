@@ -5,7 +5,8 @@
 
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::pool_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -96,3 +97,5 @@ TEST_CASE("once judged, the best stands for its place, with the highest support 
       pool.begin(), pool.end(),
       [](const poses::Candidate& a, const poses::Candidate& b) { return a.rank > b.rank; }));
 }
+
+}  // namespace posevote::pool_test

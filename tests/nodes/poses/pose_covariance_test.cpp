@@ -8,7 +8,8 @@
 #include "nodes/poses/refinement.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::pose_covariance_test {
+
 using namespace posevote::test;
 using geometry::Matrix6d;
 using geometry::Vector6d;
@@ -148,3 +149,5 @@ TEST_CASE("a pose that nothing holds or refined has no covariance", "[poses]") {
   body.params.refine = false;
   CHECK_FALSE(poses::pose_covariance(body.sought(), kBody.T_scene_model));
 }
+
+}  // namespace posevote::pose_covariance_test

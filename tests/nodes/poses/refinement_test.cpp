@@ -7,7 +7,8 @@
 #include "tests/nodes/geometry/flat_carton.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::refinement_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -83,3 +84,5 @@ TEST_CASE("the ends of a flat face hold a finalist before it is judged", "[poses
   CHECK(off_by(0) > 0.004);
   CHECK(off_by(1000) < 0.001);
 }
+
+}  // namespace posevote::refinement_test

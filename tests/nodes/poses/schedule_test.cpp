@@ -6,7 +6,8 @@
 
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::schedule_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -116,3 +117,5 @@ TEST_CASE("what clues put far below the usual is not refined, but for the first"
   poses::Candidates all{bad, bad};
   CHECK(poses::refine_best(body.sought(), all) - all.begin() == 2);
 }
+
+}  // namespace posevote::schedule_test

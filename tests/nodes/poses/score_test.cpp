@@ -6,7 +6,8 @@
 #include "nodes/poses/confidence.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::score_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -154,3 +155,5 @@ TEST_CASE("what leaves more than the instances before is less exact, once refine
   body.params.refine = false;
   CHECK(poses::exactness(body.sought(), off) == 1);
 }
+
+}  // namespace posevote::score_test

@@ -4,7 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace posevote;
+namespace posevote::separation_test {
+
 using namespace posevote::poses;
 
 namespace {
@@ -76,3 +77,5 @@ TEST_CASE("poses are alike that neither lie apart nor are turned", "[poses]") {
   CHECK_FALSE(poses::is_like(turned(0), away, {0.5F, 0.5F, 1}));
   CHECK(poses::is_like(turned(0), away, {1, 0.5F, 1}));
 }
+
+}  // namespace posevote::separation_test

@@ -5,8 +5,7 @@
 
 #include "tests/support/box_cloud.hpp"
 
-using namespace posevote;
-
+namespace posevote::solid_test {
 namespace {
 
 constexpr float kEdge = 0.1F, kSpacing = 0.002F, kDepth = 0.005F;  // [m]
@@ -44,3 +43,5 @@ TEST_CASE("what is seen from both sides has no inside", "[poses]") {
   small.points *= 0.5F;
   CHECK(poses::Solid(shell, at(0), kDepth).share_inside(small, at(0)) == 0);
 }
+
+}  // namespace posevote::solid_test

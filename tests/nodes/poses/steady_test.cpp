@@ -4,7 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-using namespace posevote;
+namespace posevote::steady_test {
+
 using geometry::Matrix6d;
 using geometry::Vector6d;
 using poses::UncertainPose;
@@ -52,3 +53,5 @@ TEST_CASE("a direction that nothing holds does not loosen the others", "[steady]
   CHECK(place(held) == Approx(0.00025).margin(2e-5));
   CHECK(Eigen::AngleAxisd(held.T_scene_model.linear()).angle() == Approx(0.25).margin(0.02));
 }
+
+}  // namespace posevote::steady_test

@@ -6,7 +6,8 @@
 #include "nodes/poses/score.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
-using namespace posevote;
+namespace posevote::twins_test {
+
 using namespace posevote::poses;
 using namespace posevote::test;
 
@@ -87,3 +88,5 @@ TEST_CASE("a twin whose place is taken does not compete", "[poses]") {
   const poses::Candidate best = poses::best_alike(setting.body.sought(), setting.wrong, taken);
   CHECK(best.T_scene_model.matrix() == setting.wrong.T_scene_model.matrix());
 }
+
+}  // namespace posevote::twins_test

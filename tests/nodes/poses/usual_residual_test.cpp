@@ -4,7 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace posevote;
+namespace posevote::usual_residual_test {
+
 using namespace posevote::poses;
 
 namespace {
@@ -45,3 +46,5 @@ TEST_CASE("instances that leave nothing ask for as much as the least", "[poses]"
   CHECK(usual.exactness(fit_of(0), 1, {1, 0.0005}) == 1);
   CHECK(usual.exactness(fit_of(0.0005), 1, {1, 0.0005}) == Approx(std::sqrt(0.5)));
 }
+
+}  // namespace posevote::usual_residual_test

@@ -7,7 +7,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::downsample_voxels_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -104,3 +105,5 @@ TEST_CASE("downsample_voxels refuses points without normals", "[prepare]") {
   CHECK_THROWS_WITH(downsampled(Cloud{}, 0.01F), Contains("none of its 0 points"));
   CHECK_THROWS_AS(downsampled(sphere(), 0), std::runtime_error);
 }
+
+}  // namespace posevote::downsample_voxels_test

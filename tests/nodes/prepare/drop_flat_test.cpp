@@ -6,8 +6,7 @@
 #include "nodes/data/features.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
-
+namespace posevote::drop_flat_test {
 namespace {
 
 constexpr float kResolution = 0.002F;
@@ -76,3 +75,5 @@ TEST_CASE("drop_flat takes scans without normals, points, or anything curved", "
   CHECK(kept(cloud).size() == all_points(cloud).indices.size());  // flat everywhere
   CHECK(kept(Cloud{}).empty());
 }
+
+}  // namespace posevote::drop_flat_test

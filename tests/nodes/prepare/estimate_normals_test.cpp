@@ -12,7 +12,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::estimate_normals_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -204,3 +205,5 @@ TEST_CASE("estimate_normals on the Bunny with 3 % noise", "[prepare]") {
   CHECK(test::mean_angle(automatic.normals.topRows(100),
                          oriented(scan, {{"source", "pca"}}).normals.topRows(100)) < 0.1);
 }
+
+}  // namespace posevote::estimate_normals_test

@@ -11,8 +11,7 @@
 #include "nodes/geometry/plane_normals.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::image_normals_test {
 namespace {
 
 constexpr int kColumns = 161, kRows = 121;  // odd: blocks of pixels end beside the image
@@ -163,3 +162,5 @@ TEST_CASE("image_normals takes points that are not finite, and those right befor
   CHECK(normals.row(9).isZero());  // nothing near it
   CHECK(std::abs(normals(400, 2)) > 0.999F);
 }
+
+}  // namespace posevote::image_normals_test

@@ -6,8 +6,7 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
-
+namespace posevote::pick_feature_points_test {
 namespace {
 
 std::vector<std::uint32_t> picked(const PointMatrix& points, float resolution,
@@ -65,3 +64,5 @@ TEST_CASE("pick_feature_points of nothing is nothing, of twins one", "[prepare]"
   CHECK(picked(PointMatrix(0, 3), 0.001F).empty());
   CHECK(picked(PointMatrix::Ones(9, 3), 0.001F).size() == 1);
 }
+
+}  // namespace posevote::pick_feature_points_test

@@ -8,8 +8,7 @@
 #include "nodes/geometry/sensor_noise.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
-
+namespace posevote::scan_octaves_test {
 namespace {
 
 /// A wall at some range, as a sensor at the origin sees it: points so far apart, so noisy.
@@ -167,3 +166,5 @@ TEST_CASE("a scan of points on a line has octaves, too", "[prepare]") {
   for (Eigen::Index i = 0; i < 3000; ++i) line.points.row(i) << 1e-4F * static_cast<float>(i), 0, 1;
   CHECK(octaves_of_scan(line, {{0.001F, 0.002F, 0.004F}}).size() == 2);
 }
+
+}  // namespace posevote::scan_octaves_test

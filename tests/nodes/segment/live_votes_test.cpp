@@ -7,7 +7,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::live_votes_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -137,3 +138,5 @@ TEST_CASE("inputs that do not belong together are refused", "[segment]") {
   short_density.index = nullptr;
   CHECK_THROWS_WITH(check(scene.votes, short_density), Catch::Contains("index"));
 }
+
+}  // namespace posevote::live_votes_test

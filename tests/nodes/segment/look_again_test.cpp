@@ -7,7 +7,8 @@
 #include "nodes/poses/sightings.hpp"
 #include "tests/nodes/segment/segment_inputs.hpp"
 
-using namespace posevote;
+namespace posevote::look_again_test {
+
 using namespace posevote::test;
 using poses::Sightings;
 
@@ -87,7 +88,7 @@ double jitter(const Values& values) {
 TEST_CASE("the first frame of a stream is searched like any scan", "[look_again]") {
   const SegmentInputs inputs = inputs_of({kLeft, kRight}, {1, 2});
   const Answer first = search(inputs, {});
-  const std::vector<Detection> single = segment(inputs);
+  const std::vector<Detection> single = test::segment(inputs);
   REQUIRE(first.detections.items.size() == single.size());
   for (std::size_t i = 0; i < single.size(); ++i) {
     CHECK(first.detections.items[i].T_scene_model.matrix() == single[i].T_scene_model.matrix());
@@ -165,3 +166,5 @@ TEST_CASE("an instance keeps its place to itself", "[look_again]") {
 TEST_CASE("what stands still jitters by less than half", "[look_again]") {
   CHECK(jitter({}) < 0.5 * jitter({{"drift", "1000"}}));
 }
+
+}  // namespace posevote::look_again_test

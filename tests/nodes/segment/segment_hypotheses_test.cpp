@@ -8,7 +8,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::segment_hypotheses_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -183,3 +184,5 @@ TEST_CASE("terms are parameters for experts", "[segment]") {
 TEST_CASE("segment_hypotheses of nothing is nothing", "[segment]") {
   CHECK(segmented({}, {}).empty());
 }
+
+}  // namespace posevote::segment_hypotheses_test

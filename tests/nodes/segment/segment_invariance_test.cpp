@@ -7,15 +7,16 @@
 
 #include "tests/nodes/segment/segment_inputs.hpp"
 
-using namespace posevote;
+namespace posevote::segment_invariance_test {
+
 using namespace posevote::test;
 
 TEST_CASE("the order of the objects does not matter", "[segment]") {
   SegmentInputs inputs = inputs_of({kLeft, kRight}, {1, 2, 3});
-  const std::vector<Detection> found = segment(inputs);
+  const std::vector<Detection> found = test::segment(inputs);
   std::reverse(inputs.votes.slots.begin(), inputs.votes.slots.end());
   std::reverse(inputs.densities.slots.begin(), inputs.densities.slots.end());
-  const std::vector<Detection> again = segment(inputs);
+  const std::vector<Detection> again = test::segment(inputs);
   REQUIRE(found.size() == again.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     CHECK(found[i].obj_id == again[i].obj_id);
@@ -26,7 +27,7 @@ TEST_CASE("the order of the objects does not matter", "[segment]") {
 TEST_CASE("what the first object explains is gone for the second as if never matched",
           "[segment]") {
   const SegmentInputs inputs = inputs_of({kLeft, kRight}, {1, 2});
-  const std::vector<Detection> both = segment(inputs);
+  const std::vector<Detection> both = test::segment(inputs);
   REQUIRE(both.size() == 2);
   const std::size_t second = both[1].obj_id == 1 ? 0 : 1;
   const Placed& first_truth = second == 0 ? kRight : kLeft;
@@ -53,7 +54,7 @@ TEST_CASE("what the first object explains is gone for the second as if never mat
   rest.votes.slots = {std::make_shared<const VoteSet>(left)};
   rest.densities.slots = {
       std::make_shared<const VoteDensity>(run_node<VoteDensity>("estimate_density", {}, left))};
-  const std::vector<Detection> alone = segment(rest);
+  const std::vector<Detection> alone = test::segment(rest);
   REQUIRE(alone.size() == 1);
   CHECK(shift_between(alone[0].T_scene_model, both[1].T_scene_model) < 1e-6);
   CHECK(turn_between(alone[0].T_scene_model, both[1].T_scene_model) < 1e-5);
@@ -75,7 +76,7 @@ TEST_CASE("a turned scan gives turned poses", "[segment]") {
   turned.scan.view.origin = T.translation().cast<float>();
   turned.features = features_of(turned.scan);
   for (const Correspondences& m : matches) add_object(turned, m);
-  const std::vector<Detection> found = segment(inputs), again = segment(turned);
+  const std::vector<Detection> found = test::segment(inputs), again = test::segment(turned);
   REQUIRE(found.size() == 2);
   REQUIRE(again.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -92,7 +93,7 @@ TEST_CASE("one and two threads give the same bytes", "[segment]") {
   std::vector<std::vector<Detection>> runs;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    runs.push_back(segment(inputs, values));
+    runs.push_back(test::segment(inputs, values));
   }
   for (const std::vector<Detection>& run : runs) {
     REQUIRE(run.size() == runs[0].size());
@@ -104,3 +105,5 @@ TEST_CASE("one and two threads give the same bytes", "[segment]") {
     }
   }
 }
+
+}  // namespace posevote::segment_invariance_test

@@ -4,11 +4,12 @@
 
 #include "tests/nodes/segment/segment_inputs.hpp"
 
-using namespace posevote;
+namespace posevote::segment_objects_test {
+
 using namespace posevote::test;
 
 TEST_CASE("two objects are found at their poses", "[segment]") {
-  const std::vector<Detection> found = segment(inputs_of({kLeft, kRight}, {1, 2}));
+  const std::vector<Detection> found = test::segment(inputs_of({kLeft, kRight}, {1, 2}));
   REQUIRE(found.size() == 2);
   for (const Detection& d : found) {
     const Placed& truth = d.obj_id == 1 ? kLeft : kRight;
@@ -24,23 +25,23 @@ TEST_CASE("two objects are found at their poses", "[segment]") {
 }
 
 TEST_CASE("a pose that few features voted for scores lower", "[segment]") {
-  const std::vector<Detection> all = segment(inputs_of({kLeft}, {1}, 0));
+  const std::vector<Detection> all = test::segment(inputs_of({kLeft}, {1}, 0));
   const SegmentInputs sparse = inputs_of({kLeft}, {1}, 0.97);
-  const std::vector<Detection> few = segment(sparse);
+  const std::vector<Detection> few = test::segment(sparse);
   REQUIRE(all.size() == 1);
   REQUIRE(few.size() == 1);
   CHECK(shift_between(few[0].T_scene_model, all[0].T_scene_model) < 0.1 * kResolution);
   CHECK(few[0].density < 0.1 * all[0].density);
   CHECK(few[0].inlier_fraction == Approx(all[0].inlier_fraction).margin(0.01));
   CHECK(few[0].score < 0.8 * all[0].score);
-  CHECK(segment(sparse, {{"min_score", std::to_string(1.01 * few[0].score)}}).empty());
+  CHECK(test::segment(sparse, {{"min_score", std::to_string(1.01 * few[0].score)}}).empty());
 }
 
 TEST_CASE("two instances of one object are both found", "[segment]") {
   const Placed left{1, pose(-0.09, 0.01, 0.8, 0.7)}, right{1, pose(0.09, -0.02, 0.75, 2.5)};
   const SegmentInputs inputs = inputs_of({left, right}, {1});
-  CHECK(segment(inputs, {{"max_instances", "1"}}).size() == 1);
-  const std::vector<Detection> found = segment(inputs);
+  CHECK(test::segment(inputs, {{"max_instances", "1"}}).size() == 1);
+  const std::vector<Detection> found = test::segment(inputs);
   REQUIRE(found.size() == 2);
   for (const Placed& truth : {left, right}) {
     const auto error = [&truth](const Detection& d) {
@@ -53,7 +54,7 @@ TEST_CASE("two instances of one object are both found", "[segment]") {
 
 TEST_CASE("an object that is not there is not found", "[segment]") {
   const std::vector<Detection> found =
-      segment(inputs_of({kLeft}, {1, 3}), {{"max_instances", "3"}});
+      test::segment(inputs_of({kLeft}, {1, 3}), {{"max_instances", "3"}});
   REQUIRE(found.size() == 1);
   CHECK(found.front().obj_id == 1);
 }
@@ -65,28 +66,28 @@ TEST_CASE("a scan fully explained leaves nothing for later objects", "[segment]"
   const Correspondences matches = match_truly(bumpy_model(1), inputs.features, {kLeft}, 0.3);
   add_object(inputs, matches);
   add_object(inputs, matches);
-  CHECK(segment(inputs, {{"max_instances", "3"}, {"min_score", "0"}}).size() == 1);
+  CHECK(test::segment(inputs, {{"max_instances", "3"}, {"min_score", "0"}}).size() == 1);
 }
 
 TEST_CASE("without votes there are no detections", "[segment]") {
   SegmentInputs inputs;
   inputs.scan = scan_of({kLeft});
   inputs.features = features_of(inputs.scan);
-  CHECK(segment(inputs).empty());
+  CHECK(test::segment(inputs).empty());
   Correspondences none;
   none.model = bumpy_model(2);
   add_object(inputs, none);
-  CHECK(segment(inputs).empty());
+  CHECK(test::segment(inputs).empty());
   add_object(inputs, match_truly(bumpy_model(1), inputs.features, {kLeft}, 0.5));
-  CHECK(segment(inputs).size() == 1);
+  CHECK(test::segment(inputs).size() == 1);
 }
 
 TEST_CASE("votes on an empty or unoriented scan find nothing", "[segment]") {
   SegmentInputs inputs = inputs_of({kLeft}, {1});
   inputs.scan.normals.setZero();
-  CHECK(segment(inputs).empty());
+  CHECK(test::segment(inputs).empty());
   inputs.scan = Cloud{};
-  CHECK(segment(inputs).empty());
+  CHECK(test::segment(inputs).empty());
 }
 
 TEST_CASE("the object that fits best comes first, whatever votes for another", "[segment]") {
@@ -100,9 +101,9 @@ TEST_CASE("the object that fits best comes first, whatever votes for another", "
   for_decoy.model = decoy;
   add_object(inputs, for_decoy);
   const Values any = {{"min_confidence", "0"}};
-  CHECK(segment(inputs, any).size() == 1);  // it would be found
+  CHECK(test::segment(inputs, any).size() == 1);  // it would be found
   add_object(inputs, match_truly(bumpy_model(1), inputs.features, {kLeft}, 0.8));
-  const std::vector<Detection> found = segment(inputs, any);
+  const std::vector<Detection> found = test::segment(inputs, any);
   REQUIRE(found.size() == 1);
   CHECK(found.front().obj_id == 1);
   CHECK(shift_between(found.front().T_scene_model, kLeft.T_scene_model) < 0.1 * kResolution);
@@ -111,7 +112,7 @@ TEST_CASE("the object that fits best comes first, whatever votes for another", "
 TEST_CASE("numbers are finite and in range even where all matches are wrong", "[segment]") {
   const SegmentInputs inputs = inputs_of({kLeft, kRight}, {1, 2, 4}, 1.0);
   const Values values{{"max_instances", "2"}, {"candidates", "10"}, {"min_score", "0"}};
-  for (const Detection& d : segment(inputs, values)) {
+  for (const Detection& d : test::segment(inputs, values)) {
     CHECK(d.T_scene_model.matrix().allFinite());
     CHECK(d.T_scene_model.linear().determinant() == Approx(1));
     CHECK((d.score >= 0 && d.score <= 1));
@@ -123,8 +124,8 @@ TEST_CASE("numbers are finite and in range even where all matches are wrong", "[
 
 TEST_CASE("ICP can be switched off, and then the mode itself is the pose", "[segment]") {
   const SegmentInputs inputs = inputs_of({kLeft}, {1}, 0.2);
-  const std::vector<Detection> rough = segment(inputs, {{"refine", "false"}});
-  const std::vector<Detection> fine = segment(inputs);
+  const std::vector<Detection> rough = test::segment(inputs, {{"refine", "false"}});
+  const std::vector<Detection> fine = test::segment(inputs);
   REQUIRE(rough.size() == 1);
   REQUIRE(fine.size() == 1);
   CHECK(shift_between(rough[0].T_scene_model, kLeft.T_scene_model) < 2 * kResolution);
@@ -135,7 +136,7 @@ TEST_CASE("ICP can be switched off, and then the mode itself is the pose", "[seg
 
 TEST_CASE("what scores too low is rejected", "[segment]") {
   const SegmentInputs inputs = inputs_of({kLeft}, {1});
-  REQUIRE(segment(inputs).size() == 1);
+  REQUIRE(test::segment(inputs).size() == 1);
   const Detections none = segment_all(inputs, {{"min_score", "1"}});
   CHECK(none.items.empty());
   REQUIRE(!none.rejected.empty());
@@ -172,8 +173,10 @@ TEST_CASE("lengths and normals that cannot be are refused", "[segment]") {
                                            inputs.features, inputs.scan, Scale{resolution}),
                       Catch::Contains("resolution"));
   inputs.scan.normals.resize(0, 3);
-  CHECK_THROWS_WITH(segment(inputs), Catch::Contains("the scan has"));
+  CHECK_THROWS_WITH(test::segment(inputs), Catch::Contains("the scan has"));
   inputs.scan = scan_of({kLeft});
   inputs.features.normals.resize(1, 3);
-  CHECK_THROWS_WITH(segment(inputs), Catch::Contains("the feature set has"));
+  CHECK_THROWS_WITH(test::segment(inputs), Catch::Contains("the feature set has"));
 }
+
+}  // namespace posevote::segment_objects_test

@@ -3,7 +3,8 @@
 
 #include "tests/nodes/match/small_library.hpp"
 
-using namespace posevote;
+namespace posevote::assemble_library_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -93,3 +94,5 @@ TEST_CASE("a library refuses what does not fit together", "[match]") {
                                            one_empty<Outline>(), one_octave()),
                     Catch::Contains("a.ply: has no points"));
 }
+
+}  // namespace posevote::assemble_library_test

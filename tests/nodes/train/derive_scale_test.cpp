@@ -7,7 +7,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::derive_scale_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -87,3 +88,5 @@ TEST_CASE("derive_scale refuses models that have no size", "[prepare]") {
   CHECK_THROWS_WITH(derive({point}), Contains("no extent"));
   CHECK(derived({point}, {{"resolution", "0.002"}}) == Approx(0.002));
 }
+
+}  // namespace posevote::derive_scale_test

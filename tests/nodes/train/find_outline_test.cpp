@@ -6,7 +6,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::find_outline_test {
+
 using namespace posevote::test;
 
 TEST_CASE("find_outline sees where a plate ends, and that a closed body does not", "[match]") {
@@ -54,3 +55,5 @@ TEST_CASE("find_outline says nothing where a mesh has its border", "[train]") {
   CHECK(ends("unknown", -0.05F) == 0);
   CHECK_THROWS(run_node<Outline>("find_outline", {{"borders", "no"}}, body, surface, scale));
 }
+
+}  // namespace posevote::find_outline_test

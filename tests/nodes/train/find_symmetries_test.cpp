@@ -7,7 +7,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::find_symmetries_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -177,3 +178,5 @@ TEST_CASE("a ball has all axes", "[match]") {
   CHECK(ball.turns.size() == 1);
   CHECK(ball.fixed_point.norm() < 0.001F);
 }
+
+}  // namespace posevote::find_symmetries_test

@@ -11,7 +11,8 @@
 #include "tests/support/shapes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::sample_surface_mesh_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -244,3 +245,5 @@ TEST_CASE("samples are the same each time", "[train]") {
   CHECK(a.points == b.points);
   CHECK(a.normals == b.normals);
 }
+
+}  // namespace posevote::sample_surface_mesh_test

@@ -10,7 +10,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
 
-using namespace posevote;
+namespace posevote::sample_surface_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -212,3 +213,5 @@ TEST_CASE("normals of a model's vertices fail by counts and indices", "[train]")
   CHECK_THROWS_WITH(oriented(Mesh{}), Contains("none of its 0 points"));
   CHECK_THROWS_WITH(oriented(Mesh{}, {{"source", "faces"}}), Contains("none of its 0 points"));
 }
+
+}  // namespace posevote::sample_surface_test

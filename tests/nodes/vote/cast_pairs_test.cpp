@@ -7,7 +7,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::cast_pairs_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -138,3 +139,5 @@ TEST_CASE("what cannot be paired casts no votes and does no harm", "[vote]") {
     CHECK(std::isfinite(votes.qw[v] + votes.qx[v] + votes.qy[v] + votes.qz[v]));
   }
 }
+
+}  // namespace posevote::cast_pairs_test

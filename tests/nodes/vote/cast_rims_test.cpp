@@ -9,7 +9,8 @@
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 
-using namespace posevote;
+namespace posevote::cast_rims_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -173,3 +174,5 @@ TEST_CASE("what has no ends casts no votes of them and does no harm", "[vote]") 
   for (std::size_t v = 0; v < votes.size(); ++v)
     CHECK(std::isfinite(votes.tx[v] + votes.ty[v] + votes.tz[v] + votes.qw[v] + votes.qx[v]));
 }
+
+}  // namespace posevote::cast_rims_test

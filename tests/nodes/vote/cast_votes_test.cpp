@@ -10,7 +10,7 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/votes.hpp"
 
-namespace posevote {
+namespace posevote::cast_votes_test {
 namespace {
 
 using test::random_direction;
@@ -209,4 +209,4 @@ TEST_CASE("correspondences that do not fit their features are refused", "[vote]"
 }
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::cast_votes_test

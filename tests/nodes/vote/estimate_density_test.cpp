@@ -7,7 +7,7 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/votes.hpp"
 
-namespace posevote {
+namespace posevote::estimate_density_test {
 namespace {
 
 TEST_CASE("estimate_density finds the pose on which votes agree", "[vote]") {
@@ -49,4 +49,4 @@ TEST_CASE("estimate_density of no votes is empty", "[vote]") {
 }
 
 }  // namespace
-}  // namespace posevote
+}  // namespace posevote::estimate_density_test

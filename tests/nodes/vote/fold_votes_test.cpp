@@ -8,7 +8,8 @@
 #include "tests/support/run_node.hpp"
 #include "tests/support/votes.hpp"
 
-using namespace posevote;
+namespace posevote::fold_votes_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -109,3 +110,5 @@ TEST_CASE("what is no number stays none", "[vote]") {
   CHECK(std::isfinite(folded.tx[0] + folded.qw[0]));
   CHECK_FALSE(std::isfinite(folded.tx[1] + folded.qw[1]));
 }
+
+}  // namespace posevote::fold_votes_test

@@ -5,7 +5,8 @@
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::write_correspondences_test {
+
 using posevote::test::run_writer;
 using posevote::test::TemporaryFolder;
 
@@ -50,3 +51,5 @@ TEST_CASE("write_correspondences writes nothing where it is off, and says why it
   folder.write("correspondences", "a file where the folder should be");
   CHECK_THROWS_WITH(write(folder, "1"), Catch::Contains("correspondences"));
 }
+
+}  // namespace posevote::write_correspondences_test

@@ -6,7 +6,8 @@
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::write_overlay_test {
+
 using posevote::test::make_detection;
 using posevote::test::make_library;
 using posevote::test::make_patch;
@@ -91,3 +92,5 @@ TEST_CASE("write_overlay writes every n-th frame, or none", "[write]") {
   CHECK_FALSE(written(4, "3"));
   CHECK_FALSE(written(0, "0"));
 }
+
+}  // namespace posevote::write_overlay_test

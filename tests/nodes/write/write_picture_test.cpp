@@ -7,7 +7,8 @@
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::write_picture_test {
+
 using posevote::test::make_detection;
 using posevote::test::make_library;
 using posevote::test::make_patch;
@@ -222,3 +223,5 @@ TEST_CASE("write_picture writes nothing without an output folder, and says where
                                Detections(), make_library()),
                     Catch::Contains("pictures"));
 }
+
+}  // namespace posevote::write_picture_test

@@ -7,7 +7,8 @@
 #include "tests/nodes/write/writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace posevote;
+namespace posevote::write_results_test {
+
 using namespace posevote::test;
 
 namespace {
@@ -100,3 +101,5 @@ TEST_CASE("results that cannot be written end the run", "[write]") {
   const Writer other;
   CHECK_THROWS_AS(other.write(frame(0, folder / "nowhere"), {}), graph::EndOfRun);
 }
+
+}  // namespace posevote::write_results_test
