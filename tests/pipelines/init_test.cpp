@@ -199,11 +199,11 @@ TEST_CASE("init: models inside out, and files that cannot be read", "[init]") {
   CHECK(read_text(w.folder / "odd/config.yaml") == before);
   CHECK(run_posevote(w.folder, arguments + scan + " --overwrite").status == 0);
   const CommandResult nothing = run_posevote(
-      w.folder, "init " + (w.folder / "none").string() + " --models " + w.models.string() +
+      w.folder, "init " + (w.folder / "no_config").string() + " --models " + w.models.string() +
                     " --scenes " + (w.folder / "odd_scans/000001.ply").string());
   CHECK(nothing.status == 2);
   CHECK_THAT(nothing.output, Catch::Contains("nothing readable") && Catch::Contains("000001.ply"));
-  CHECK_FALSE(fs::exists(w.folder / "none"));
+  CHECK_FALSE(fs::exists(w.folder / "no_config"));
 }
 
 }  // namespace posevote::init_test
