@@ -9,16 +9,6 @@
 #include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::density {
-
-Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
-  return {votes.tx[vote], votes.ty[vote], votes.tz[vote]};
-}
-
-Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote) {
-  return {vote_center(votes, vote),
-          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote]), 0};
-}
-
 namespace {
 
 /// The highest first.
@@ -37,6 +27,15 @@ void sort_by_density(std::vector<std::uint32_t>& votes, const std::vector<double
 }
 
 }  // namespace
+
+Eigen::Vector3f vote_center(const VoteSet& votes, std::uint32_t vote) {
+  return {votes.tx[vote], votes.ty[vote], votes.tz[vote]};
+}
+
+Hypothesis vote_hypothesis(const VoteSet& votes, std::uint32_t vote) {
+  return {vote_center(votes, vote),
+          Eigen::Quaternionf(votes.qw[vote], votes.qx[vote], votes.qy[vote], votes.qz[vote]), 0};
+}
 
 std::vector<std::uint32_t> best_votes(const VoteSet& votes, const std::vector<double>& density) {
   const std::size_t per_correspondence = votes.votes_per_correspondence;

@@ -6,7 +6,6 @@
 #include <flann/algorithms/kdtree_single_index.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/descriptors/descriptor_kernels.hpp"
 #include "nodes/descriptors/exact_index.hpp"
+#include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::descriptors {
 namespace {
@@ -52,11 +52,9 @@ DescriptorMatrix stack(const std::vector<const DescriptorMatrix*>& matrices) {
 }
 
 void require_finite(const DescriptorMatrix& matrix, const char* whose) {
-  std::atomic<bool> finite = true;
-  graph::parallel_for(static_cast<std::size_t>(matrix.rows()), 512, [&](std::size_t i) {
-    if (!matrix.row(static_cast<Eigen::Index>(i)).allFinite()) finite = false;
-  });
-  if (!finite)
+  constexpr std::size_t kGrain = 512;  // rows are long
+  const auto is_bad = [&matrix](std::uint32_t i) { return !matrix.row(i).allFinite(); };
+  if (!geometry::rows_that(static_cast<std::size_t>(matrix.rows()), is_bad, kGrain).empty())
     throw std::runtime_error(std::string(whose) + " descriptors hold values that are not finite");
 }
 

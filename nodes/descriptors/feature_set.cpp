@@ -41,14 +41,11 @@ bool is_oriented(const Cloud& cloud, std::uint32_t point) {
 FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
                           DescriptorMatrix descriptors, const std::vector<char>& described) {
   constexpr std::size_t kGrain = 512;  // rows are long
-  const auto kept_of = [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> rows;
-    for (std::size_t i = begin; i < end; ++i)
-      if (described[i] && descriptors.row(static_cast<Eigen::Index>(i)).allFinite())
-        rows.push_back(static_cast<std::uint32_t>(i));
-    return rows;
+  const auto is_described = [&](std::uint32_t i) {
+    return described[i] != 0 && descriptors.row(i).allFinite();
   };
-  const auto kept = geometry::joined_ranges(described.size(), kept_of, kGrain);
+  const std::vector<std::uint32_t> kept =
+      geometry::rows_that(described.size(), is_described, kGrain);
   if (kept.size() < described.size()) {
     DescriptorMatrix some(std::ssize(kept), descriptors.cols());
     graph::parallel_for(kept.size(), kGrain, [&](std::size_t i) {

@@ -16,13 +16,12 @@ namespace posevote::formats {
 namespace {
 
 constexpr std::size_t kMostPixelsAside = 16384;
-constexpr std::uint64_t kMostInflated =
-    3100;  // pixels' bytes over the file's: deflate's, of one byte
+constexpr std::uint64_t kMostRatio = 3100;  // pixels' bytes over the file's: deflate's, of one byte
 
 /// Checked before anything is allocated.
 ColorImage empty_image(std::size_t width, std::size_t height, std::size_t bytes) {
   if (width == 0 || height == 0 || width > kMostPixelsAside || height > kMostPixelsAside ||
-      std::uint64_t{width} * height * 3 > kMostInflated * bytes)
+      std::uint64_t{width} * height * 3 > kMostRatio * bytes)
     throw std::runtime_error("damaged image: claims " + std::to_string(width) + " x " +
                              std::to_string(height) + " pixels");
   return {width, height, std::vector<std::uint8_t>(width * height * 3)};

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "graph/parallel.hpp"
@@ -31,26 +30,6 @@ constexpr double kFilled = 0.5 / 12;  // x width squared
 // Tilts about two axes of standard deviation s have their lower quartile at s sqrt(2 ln(4 / 3));
 // one normal against the mean of two others varies 1.5 times as much as one alone.
 const float kQuartile = std::sqrt(2 * std::log(4.0F / 3)) * std::sqrt(1.5F);
-
-/// The mean of points and how they spread about it.
-struct Moments {
-  Eigen::Vector3d mean;
-  Eigen::Matrix3d covariance;
-};
-
-Moments moments_of(const PointMatrix& points, std::span<const std::uint32_t> members) {
-  const Eigen::Vector3d first = points.row(members.front()).transpose().cast<double>();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t i : members) {
-    const Eigen::Vector3d off = points.row(i).transpose().cast<double>() - first;
-    sum += off;
-    squares += off * off.transpose();
-  }
-  const auto count = static_cast<double>(members.size());
-  const Eigen::Vector3d mean = sum / count;
-  return {first + mean, squares / count - mean * mean.transpose()};
-}
 
 /// The unit normal, towards the viewpoint, of points that fill their cube.
 std::optional<Eigen::Vector3f> normal_of(const Moments& moments, const Eigen::Vector3f& viewpoint,

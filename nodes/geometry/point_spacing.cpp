@@ -13,25 +13,14 @@
 #include "graph/parallel.hpp"
 #include "nodes/data/splitmix64.hpp"
 #include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/extent.hpp"
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/plane_fit.hpp"
 
 namespace posevote::geometry {
 namespace {
 
-/// Diagonal of the box that leaves out a twentieth of the points at either end of each axis.
-float middle_diagonal(const std::vector<Eigen::Vector3f>& points) {
-  Eigen::Vector3f extent;
-  const std::size_t cut = points.size() / 20;
-  std::vector<float> values(points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(),
-                   [axis](const Eigen::Vector3f& point) { return point(axis); });
-    std::sort(values.begin(), values.end());
-    extent(axis) = values[values.size() - 1 - cut] - values[cut];
-  }
-  return extent.stableNorm();
-}
+constexpr double kOutliers = 0.05;  // of the points, at either end of each axis
 
 using Place = std::array<float, 3>;
 
@@ -69,14 +58,18 @@ bool seem_distinct(std::vector<Place> sample) {
   return 20 * sample.size() >= 19 * all;
 }
 
+PointMatrix matrix_of(const std::vector<Place>& places) {
+  PointMatrix points(std::ssize(places), 3);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = Eigen::RowVector3f::Map(places[i].data());
+  return points;
+}
+
 /// The finite points, each place once.
 PointMatrix distinct(const PointMatrix& points) {
   std::vector<Place> places = places_of(points, std::numeric_limits<std::size_t>::max());
   keep_one_each(places);
-  PointMatrix once(static_cast<Eigen::Index>(places.size()), 3);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    once.row(static_cast<Eigen::Index>(i)) = Eigen::RowVector3f::Map(places[i].data());
-  return once;
+  return matrix_of(places);
 }
 
 /// Tells which points may lie within a reach of some places: all that do, and a few others. Asked
@@ -88,7 +81,7 @@ class Vicinity {
     for (const Eigen::Vector3f& place : places) box_.extend(place.cast<double>());
     const double margin = 1.00001 * static_cast<double>(reach);  // rounding
     box_ = {box_.min().array() - margin, box_.max().array() + margin};
-    per_cell_ = 1 / std::max(margin, box_.sizes().maxCoeff() / 1e9);  // below 2^30
+    per_cell_ = 1 / std::max(margin, box_.sizes().maxCoeff() / 1e9);  // cells below 2^30
     marks_.resize(std::bit_ceil(kMarksPerPlace * places.size()) / 64, 0);
     for (const Eigen::Vector3f& place : places) mark_around(place);
   }
@@ -157,7 +150,7 @@ float point_spacing(const PointMatrix& points) {
   std::vector<Eigen::Vector3f> places;  // whose nearest is not found yet
   for (const Place& place : sample) places.emplace_back(Eigen::Vector3f::Map(place.data()));
   if (places.size() < 2) return 0;
-  const float diagonal = middle_diagonal(places);
+  const auto diagonal = static_cast<float>(robust_diagonal(matrix_of(sample), kOutliers));
   std::vector<float> distances;
   // At first half of what a point would fill if they filled the largest side of the box around
   // most (far outliers must not set it): about what they are apart.

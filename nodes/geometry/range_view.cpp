@@ -48,19 +48,19 @@ RangeView::RangeView(const Cloud& scan, float resolution, const ViewTerms& terms
   if (static_cast<float>(image_points.size()) < expected) return;
   lay_out(image_points, resolution / median_range(image_points), terms.most_cells);
   const float half_width = static_cast<float>(terms.footprint) * resolution;
-  std::vector<int> rows(image_points.size());
-  graph::parallel_for(rows.size(), 8192, [&](std::size_t i) {
-    rows[i] = static_cast<int>((image_points[i].y() - origin_.y()) / cell_);
+  std::vector<Patch> patches(image_points.size());
+  graph::parallel_for(patches.size(), 8192, [&](std::size_t i) {
+    const Eigen::Vector3f& p = image_points[i];
+    const int reach = static_cast<int>(std::lround(half_width / p.z() / cell_));
+    patches[i] = {static_cast<int>((p.x() - origin_.x()) / cell_),
+                  static_cast<int>((p.y() - origin_.y()) / cell_),
+                  std::min(terms.most_half_cells, reach), p.z()};
   });
   // In bands, side by side; each cell takes the nearest of all.
   constexpr int kBands = 8;
   graph::parallel_for(kBands, 1, [&](std::size_t band) {
     const auto row = [&](std::size_t b) { return static_cast<int>(b) * height_ / kBands; };
-    const int first = row(band), last = row(band + 1) - 1;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i] + terms.most_half_cells >= first && rows[i] - terms.most_half_cells <= last)
-        splat(image_points[i], half_width / image_points[i].z(), terms.most_half_cells, first,
-              last);
+    for (const Patch& patch : patches) splat(patch, row(band), row(band + 1) - 1);
   });
 }
 
@@ -103,15 +103,12 @@ void RangeView::lay_out(const std::vector<Eigen::Vector3f>& image_points, float 
   range_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0F);
 }
 
-void RangeView::splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells,
-                      int first_row, int last_row) {
-  const int v = static_cast<int>((image_point.y() - origin_.y()) / cell_);
-  const int reach = std::min(most_half_cells, static_cast<int>(std::lround(half_width / cell_)));
-  const int u = static_cast<int>((image_point.x() - origin_.x()) / cell_);
+void RangeView::splat(const Patch& patch, int first_row, int last_row) {
+  const auto [u, v, reach, nearest] = patch;
   for (int y = std::max(first_row, v - reach); y <= std::min(last_row, v + reach); ++y)
     for (int x = std::max(0, u - reach); x <= std::min(width_ - 1, u + reach); ++x) {
       float& range = range_[cell_at(x, y)];
-      if (range == 0 || image_point.z() < range) range = image_point.z();
+      if (range == 0 || nearest < range) range = nearest;
     }
 }
 

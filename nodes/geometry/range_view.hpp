@@ -47,9 +47,13 @@ class RangeView {
  private:
   bool find_axis(const Cloud& scan, float resolution, const ViewTerms& terms);
   void lay_out(const std::vector<Eigen::Vector3f>& image_points, float cell, int most_cells);
+  /// The cells that a point covers: as many on either side of its own.
+  struct Patch {
+    int u = 0, v = 0, reach = 0;
+    float range = 0;
+  };
   /// Into rows of cells from the first to the last.
-  void splat(const Eigen::Vector3f& image_point, float half_width, int most_half_cells,
-             int first_row, int last_row);
+  void splat(const Patch& patch, int first_row, int last_row);
   Eigen::Vector3f to_image(const Eigen::Vector3f& point) const;
 
   Eigen::Vector3f viewpoint_ = Eigen::Vector3f::Zero();

@@ -30,15 +30,17 @@ auto joined_ranges(std::size_t count, const Make& make, std::size_t grain = 8192
   return all;
 }
 
-/// The numbers below `count` that have a property, in ascending order.
+/// The numbers below `count` that have a property, in ascending order. `grain` as above.
 template <class Property>
-std::vector<std::uint32_t> rows_that(std::size_t count, const Property& has) {
-  return joined_ranges(count, [&](std::size_t begin, std::size_t end) {
+std::vector<std::uint32_t> rows_that(std::size_t count, const Property& has,
+                                     std::size_t grain = 8192) {
+  const auto of_range = [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> rows;
     for (std::size_t i = begin; i < end; ++i)
       if (has(static_cast<std::uint32_t>(i))) rows.push_back(static_cast<std::uint32_t>(i));
     return rows;
-  });
+  };
+  return joined_ranges(count, of_range, grain);
 }
 
 }  // namespace posevote::geometry

@@ -9,6 +9,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/point_spacing.hpp"
+#include "nodes/geometry/spread.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
@@ -24,15 +25,9 @@ std::optional<Patch> measure(const PointMatrix& points, std::span<const std::uin
                              const Eigen::Vector3f& viewpoint) {
   if (members.size() < kFewest) return std::nullopt;
   const auto count = static_cast<double>(members.size());
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : members) mean += points.row(i).transpose().cast<double>();
-  mean /= count;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t i : members) {
-    const Eigen::Vector3d off = points.row(i).transpose().cast<double>() - mean;
-    spread += off * off.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread, Eigen::EigenvaluesOnly);
+  const auto [mean, covariance] = moments_of(points, members);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(count * covariance,
+                                                            Eigen::EigenvaluesOnly);
   const Eigen::Vector3d squares = axes.eigenvalues().cwiseMax(0);
   Patch patch;
   patch.range = (mean.cast<float>() - viewpoint).norm();

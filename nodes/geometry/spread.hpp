@@ -5,7 +5,34 @@
 
 #include <Eigen/Core>
 
+#include "nodes/data/cloud.hpp"
+
 namespace posevote::geometry {
+
+/// The mean of points and their covariance about it.
+struct Moments {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+};
+
+/// Of those rows, at least one, in one pass: far from the origin the first row keeps the digits.
+template <class Rows>
+Moments moments_of(const PointMatrix& points, const Rows& rows) {
+  const auto point = [&points](auto row) -> Eigen::Vector3d {
+    return points.row(static_cast<Eigen::Index>(row)).transpose().template cast<double>();
+  };
+  const Eigen::Vector3d first = point(rows.front());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const auto row : rows) {
+    const Eigen::Vector3d off = point(row) - first;
+    sum += off;
+    squares += off * off.transpose();
+  }
+  const auto count = static_cast<double>(rows.size());
+  const Eigen::Vector3d mean = sum / count;
+  return {first + mean, squares / count - mean * mean.transpose()};
+}
 
 struct Spread {
   double least = 0;        ///< the smallest eigenvalue, at least 0

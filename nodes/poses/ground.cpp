@@ -44,18 +44,8 @@ Plane plane_at(const Cloud& scan, std::size_t i) {
 
 /// The plane of least squares; its normal on the side of that of `like`.
 Plane fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows, const Plane& like) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const std::size_t i : rows)
-    mean += scan.points.row(static_cast<Eigen::Index>(i)).transpose().cast<double>();
-  mean /= static_cast<double>(rows.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const std::size_t i : rows) {
-    const Eigen::Vector3d off =
-        scan.points.row(static_cast<Eigen::Index>(i)).transpose().cast<double>() - mean;
-    covariance += off * off.transpose();
-  }
-  Eigen::Vector3f up =
-      geometry::spread_of(covariance / static_cast<double>(rows.size())).across.cast<float>();
+  const auto [mean, covariance] = geometry::moments_of(scan.points, rows);
+  Eigen::Vector3f up = geometry::spread_of(covariance).across.cast<float>();
   if (up.isZero()) return like;
   if (up.dot(like.normal()) < 0) up = -up;
   return {up.normalized(), Eigen::Vector3f(mean.cast<float>())};
