@@ -138,6 +138,10 @@ FoundObject to_found(const Detection& detection) {
                   Eigen::Translation3d(-fixed)));
   for (const Eigen::Vector3f& axis : symmetries.axes) found.axes.push_back(to_array(axis));
   found.axis_point = to_array(symmetries.fixed_point);
+  found.pose_confidence = detection.pose_confidence;
+  for (const LookAlike& other : detection.look_alikes)
+    found.look_alikes.push_back(
+        {to_matrix(detection.T_scene_model * other.motion), other.probability});
   found.inlier_share = detection.inlier_fraction;
   found.rms = detection.rmse;
   found.seconds = detection.seconds;

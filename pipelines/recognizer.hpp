@@ -80,11 +80,19 @@ struct DepthView {
   PinholeCamera camera;
 };
 
+/// Another pose that the scan does not tell from the one found, for what differs between them is small,
+/// and hidden or lost in noise.
+struct LookAlikePose {
+  Matrix4 T_scene_model{};  ///< [m]
+  double probability = 0;   ///< that it is the right one, given that the object lies there
+};
+
 /// One found instance of one object.
 struct FoundObject {
   std::string name;
   int obj_id = 0;
-  double confidence = 0;    ///< in [0, 1]: the probability that it is right
+  /// In [0, 1]: the probability that it is right, one of its look_alikes counted as right.
+  double confidence = 0;
   Matrix4 T_scene_model{};  ///< [m]
   /// 6 x 6, row by row, of the pose error xi: T_true = T_scene_model exp(xi), where xi is a twist in
   /// the model's frame, about its origin: a translation [m], then a rotation vector [rad]. What
@@ -96,9 +104,11 @@ struct FoundObject {
   /// Axes of continuous symmetry, unit vectors in the model's frame; they go through axis_point.
   std::vector<std::array<double, 3>> axes;
   std::array<double, 3> axis_point{};  ///< [m]
-  double inlier_share = 0;  ///< of the model points that face the sensor, those on scene points
-  double rms = 0;           ///< of the inliers' distance to the scan's surface [m]
-  double seconds = 0;       ///< spent on the search for it, since the object's instance before
+  double inlier_share = 0;     ///< of the model points that face the sensor, those on scene points
+  double rms = 0;              ///< of the inliers' distance to the scan's surface [m]
+  double pose_confidence = 0;  ///< as confidence, look_alikes counted as wrong
+  std::vector<LookAlikePose> look_alikes;  ///< the likeliest first
+  double seconds = 0;  ///< spent on the search for it, since the object's instance before
 };
 
 /// The answer to one scan.

@@ -15,11 +15,6 @@ std::string direction(const Eigen::Vector3d& axis) {
   return format("(%g %g %g)", rounded.x(), rounded.y(), rounded.z());
 }
 
-std::string turn(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd about(rotation);
-  return format("a turn of %.0f deg about ", about.angle() / kDegree) + direction(about.axis());
-}
-
 /// The share of the surface by which the two poses differ.
 double share_that_tells(const NearSymmetry& near, const Model& model) {
   const auto differing = static_cast<double>(near.carried_off.size() + near.uncovered.size());
@@ -36,11 +31,16 @@ std::vector<double> row_by_row(const Eigen::Matrix3d& rotation) {
 }
 
 std::string near_line(const NearSymmetry& near, const Model& model) {
-  return "  near: " + turn(near.motion.linear()) +
+  return "  near: " + turn_text(near.motion.linear()) +
          format("; %.0f %% of the surface tells\n", 100 * share_that_tells(near, model));
 }
 
 }  // namespace
+
+std::string turn_text(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd about(rotation);
+  return format("a turn of %.0f deg about ", about.angle() / kDegree) + direction(about.axis());
+}
 
 std::string symmetry_report(const Model& model) {
   const Symmetries& symmetries = model.symmetries;
@@ -52,7 +52,8 @@ std::string symmetry_report(const Model& model) {
   for (const Eigen::Vector3f& axis : symmetries.axes)
     text += "  any turn about " + direction(axis.cast<double>()) + "\n";
   for (std::size_t i = 1; i < symmetries.turns.size(); ++i)
-    text += "  " + turn(symmetries.turns[i].cast<double>().normalized().toRotationMatrix()) + "\n";
+    text +=
+        "  " + turn_text(symmetries.turns[i].cast<double>().normalized().toRotationMatrix()) + "\n";
   for (const NearSymmetry& near : model.near_symmetries.items) text += near_line(near, model);
   return text;
 }

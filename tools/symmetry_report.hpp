@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "nodes/data/model.hpp"
 
 namespace posevote {
+
+/// "a turn of 180 deg about (0 0 1)"
+std::string turn_text(const Eigen::Matrix3d& rotation);
 
 /// The motions that carry a model onto itself, exactly or nearly, a line each; for `train --report`.
 std::string symmetry_report(const Model& model);

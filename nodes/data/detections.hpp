@@ -16,8 +16,10 @@ namespace posevote {
 struct Detection {
   int obj_id = 0;
   std::string model;
-  double confidence = 0;         ///< in [0, 1]: the probability that it is right
+  double confidence = 0;         ///< in [0, 1]: the probability that the object lies so, or so that
+                                 ///< what the scan shows of it is the same
   Clues clues{};                 ///< what the confidence was made from
+  double pose_confidence = 0;    ///< and that it is none of its look_alikes instead
   double score = 0;              ///< in [0, 1]: how well it fits
   double density = 0;            ///< of the mode, raw (before anything was subtracted)
   double runner_up_density = 0;  ///< highest raw density of the same object farther than 20 % of
@@ -30,7 +32,8 @@ struct Detection {
   std::optional<Eigen::Matrix<double, 6, 6>> covariance{};
   double seconds = 0;     ///< that the search for it took (poses/object_search.hpp)
   Symmetries symmetries;  ///< of the model: poses that look the same, in colour where that is known
-  std::optional<ColorClues> colors{};  ///< likewise, where the scan and the model have any
+  std::vector<LookAlike> look_alikes{};  ///< other poses that the scan does not tell from this one
+  std::optional<ColorClues> colors{};    ///< likewise, where the scan and the model have any
   Clues against{};  ///< what each clue takes from the log odds, beside usual right detections
   std::string why;  ///< of a rejected one: the threshold that it missed
 };

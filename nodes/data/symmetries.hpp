@@ -17,4 +17,11 @@ struct Symmetries {
   bool any() const { return turns.size() > 1 || !axes.empty(); }
 };
 
+/// Another pose that a scan hardly tells from one that was found, for what differs between them is
+/// small, and hidden or lost in noise.
+struct LookAlike {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< T_scene_model motion is that pose
+  double probability = 0;  ///< that it is the right one, given that the object lies there [0, 1]
+};
+
 }  // namespace posevote

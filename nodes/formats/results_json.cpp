@@ -37,6 +37,13 @@ ordered_json to_json(const Symmetries& symmetries) {
   return {{"discrete", discrete}, {"continuous", continuous}};
 }
 
+ordered_json to_json(const std::vector<LookAlike>& others) {
+  ordered_json list = ordered_json::array();
+  for (const LookAlike& other : others)
+    list.push_back({{"motion", row_by_row(other.motion)}, {"probability", other.probability}});
+  return list;
+}
+
 /// Clues by their names.
 ordered_json to_json(const Clues& values) {
   ordered_json clues;
@@ -74,8 +81,12 @@ ordered_json to_json(const Detection& found) {
                     {"seconds", found.seconds}};
   if (found.colors)
     json["colors"] = {{"likeness", found.colors->likeness}, {"tint", found.colors->tint}};
-  if (!found.why.empty()) json["why"] = found.why;
+  if (found.why.empty())
+    json["pose_confidence"] = found.pose_confidence;
+  else
+    json["why"] = found.why;
   if (found.symmetries.any()) json["symmetries"] = to_json(found.symmetries);
+  if (!found.look_alikes.empty()) json["look_alikes"] = to_json(found.look_alikes);
   return json;
 }
 
@@ -101,7 +112,13 @@ const ordered_json& about() {
        "that was not refined, or was no instance. A direction that nothing holds has a large "
        "variance"},
       {"symmetries", "motions of the model after which it looks the same: T S is as good as T"},
-      {"confidence", "the probability that the detection is right"},
+      {"look_alikes",
+       "motions of the model to other poses that this scan does not tell from T for sure, because "
+       "what differs is hidden or lost in noise: T motion may be right instead, and probability "
+       "says how probably, given that the object lies there"},
+      {"confidence",
+       "the probability that the detection is right, one of its look_alikes counted as right"},
+      {"pose_confidence", "the same, its look_alikes counted as wrong"},
       {"seconds",
        "of a frame: of the run's time its share; stages: of that, of each step. Of a detection: of "
        "segment_objects, the time spent on the search for this object, since its instance before"},

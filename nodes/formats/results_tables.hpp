@@ -19,7 +19,8 @@ std::string bop_rows(const nlohmann::ordered_json& frame);
 /// detections.csv, for spreadsheets and robots: names beside numbers, t in m, the pose as a unit
 /// quaternion. Quoted as in RFC 4180; lines end in a line feed.
 inline constexpr const char* kTableHeader =
-    "frame,scan,scene_id,im_id,obj_id,model,confidence,x_m,y_m,z_m,qw,qx,qy,qz,rms_m\n";
+    "frame,scan,scene_id,im_id,obj_id,model,confidence,x_m,y_m,z_m,qw,qx,qy,qz,rms_m,pose_"
+    "confidence\n";
 std::string table_rows(const nlohmann::ordered_json& frame);
 
 /// The tables that a format of write_results asks for.

@@ -83,6 +83,7 @@ void ObjectSearch::choose_best() {
     const bool is_clear = taken_.is_clear(sought_, best_->T_scene_model);
     if (is_clear && is_promising && is_convincing(sought_, *best_)) {
       best_->covariance = pose_covariance(sought_, best_->T_scene_model);
+      best_->look_alikes = look_alikes(sought_, *best_);
       return;
     }
     if (is_clear) refused_.push_back(*best_);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "graph/parallel.hpp"
 #include "nodes/poses/confidence.hpp"
@@ -34,7 +36,54 @@ double log_odds_over(const Sought& sought, const Candidate& origin, const Candid
          terms.lead_odds * std::clamp(lead, -terms.telling, terms.telling);
 }
 
+constexpr double kSameTurn = 0.35;    // [rad] 20 deg, as in find_symmetries
+constexpr double kNegligible = 0.02;  // too improbable to be told
+
+/// Whether a turn is one of the symmetries.
+bool is_among(const Eigen::Quaterniond& turn, const Symmetries& symmetries) {
+  if (symmetries.axes.size() > 1) return true;
+  return std::ranges::any_of(symmetries.turns, [&](const Eigen::Quaternionf& one) {
+    const Eigen::Quaterniond between = one.cast<double>().normalized().conjugate() * turn;
+    if (symmetries.axes.empty())
+      return between.angularDistance(Eigen::Quaterniond::Identity()) < kSameTurn;
+    const Eigen::Vector3d axis = symmetries.axes[0].cast<double>();
+    return std::acos(std::clamp(axis.dot(between * axis), -1.0, 1.0)) < kSameTurn;
+  });
+}
+
+/// How much more the scan speaks for a twin that was not refined, by shape, and by colours where they
+/// are known.
+double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate twin) {
+  const double by_shape = lead_over(sought, candidate, twin);
+  if (!candidate.colors) return by_shape;
+  twin.colors = measure_colors(sought, twin.T_scene_model, sought.terms.color.look_points);
+  const double by_color = color_lead(twin.colors, candidate.colors);
+  return by_color == 0 ? by_shape : by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
+}
+
 }  // namespace
+
+std::vector<LookAlike> look_alikes(const Sought& sought, const Candidate& candidate) {
+  const std::vector<NearSymmetry>& near = sought.model.near_symmetries.items;
+  const Symmetries& known = candidate.symmetries ? *candidate.symmetries : sought.model.symmetries;
+  std::vector<LookAlike> others(near.size());
+  graph::parallel_for(near.size(), 1, [&](std::size_t i) {
+    const Eigen::Isometry3d& motion = near[i].motion;
+    if (is_among(Eigen::Quaterniond(motion.linear()), known)) return;
+    Candidate twin = candidate;
+    twin.near_symmetry = i;
+    twin.T_scene_model = candidate.T_scene_model * motion;
+    // What speaks for the other was outweighed when this one was chosen.
+    const double lead = std::min(lead_of_all(sought, candidate, std::move(twin)), 0.0);
+    others[i] = {motion, std::exp(sought.terms.twins.lead_odds * lead)};
+  });
+  double sum = 1;
+  for (const LookAlike& other : others) sum += other.probability;
+  for (LookAlike& other : others) other.probability /= sum;
+  std::erase_if(others, [](const LookAlike& other) { return other.probability < kNegligible; });
+  std::ranges::stable_sort(others, std::greater(), &LookAlike::probability);
+  return others;
+}
 
 Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken) {
   Candidates twins = make_twins(sought, candidate);

@@ -4,6 +4,9 @@
 // them, together with their confidences, which also weigh what both have alike.
 #pragma once
 
+#include <vector>
+
+#include "nodes/data/symmetries.hpp"
 #include "nodes/poses/candidate.hpp"
 #include "nodes/poses/pool.hpp"
 #include "nodes/poses/sought.hpp"
@@ -17,6 +20,11 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
 /// Whether colours tell a refined pose from another one of the same place, and the whole of what is
 /// known makes it more probable: a carton that lies as well on any of its sides.
 bool is_better_by_color(const Sought& sought, const Candidate& rival, const Candidate& best);
+
+/// The poses that near symmetries of the model make of a refined one and the scan does not tell
+/// from it for sure, because what differs is hidden or lost in noise; the likeliest first. What their
+/// probabilities leave of 1 is the pose's own, and a trifle of those that are left out.
+std::vector<LookAlike> look_alikes(const Sought& sought, const Candidate& candidate);
 
 /// How much more the scan speaks for a twin than for the pose that a near symmetry made it of,
 /// where they differ, in standard deviations, were the points independent.

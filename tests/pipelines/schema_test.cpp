@@ -57,6 +57,7 @@ TEST_CASE("results.json and failures.json are as their schemas say", "[run]") {
     CHECK(frame["latency_s"].get<double>() > 0);
     for (const nlohmann::json& detection : frame["detections"]) {
       ++found;
+      CHECK(detection["pose_confidence"] <= detection["confidence"]);
       symmetric += detection.contains("symmetries");
       held += detection["covariance"].size() == 36;
       CHECK(detection["seconds"].get<double>() > 0);

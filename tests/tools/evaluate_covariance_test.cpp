@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether covariances say how far poses are off.
+// Whether covariances say how far poses are off, and confidences which of its look-alikes one is.
 #include <cmath>
 #include <random>
 
@@ -92,6 +92,21 @@ TEST_CASE("of errors that are as they are said to be, 95 in a hundred are within
   }
   CHECK(within > 0.92 * kCount);
   CHECK(within < 0.98 * kCount);
+}
+
+TEST_CASE("a rule that takes look-alikes judges the confidence, others that of the very pose",
+          "[evaluate]") {
+  const TruthSet set;
+  FoundInstance found = Found().instance();
+  found.score = 0.9, found.pose_confidence = 0.3;
+  EvaluateOptions options;
+  options.rules = "add,adds";
+  const auto truth = layouts::read_ground_truth(set.path(), "test");
+  const Evaluation got = evaluate(truth, {found}, options);
+  CHECK(calibration_error(got.all[0]) == Approx(0.7));
+  CHECK(calibration_error(got.all[1]) == Approx(0.1));
+  found.pose_confidence.reset();
+  CHECK(calibration_error(evaluate(truth, {found}, options).all[0]) == Approx(0.1));
 }
 
 TEST_CASE("rows of results.csv get their covariances from the results.json beside it",

@@ -142,4 +142,16 @@ TEST_CASE("a command line can be pasted into a shell", "[report]") {
         "posevote run 'a b' 'it'\\''s' '' 'x.y=[1]'");
 }
 
+TEST_CASE("what a scan does not tell apart is said of a detection", "[report]") {
+  ReportedObject found;
+  CHECK(page::sentences(found).empty());
+  Eigen::Matrix4d half = Eigen::Matrix4d::Identity();
+  half(0, 0) = half(1, 1) = -1;
+  found.look_alikes = {{half, 0.31}, {half, 0.2}, {half, 0.1}, {half, 0.05}};
+  REQUIRE(page::sentences(found).size() == 1);
+  CHECK_THAT(page::sentences(found)[0],
+             Catch::Contains("a turn of 180 deg about (0 0 1) (31 %); a turn") &&
+                 Catch::EndsWith("(10 %); and 1 more."));
+}
+
 }  // namespace posevote::report_pack_test

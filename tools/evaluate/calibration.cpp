@@ -21,11 +21,12 @@ std::optional<Calibration> calibrate(const std::vector<Verdict>& verdicts) {
     bin.from = static_cast<double>(i) / kBins, bin.to = static_cast<double>(i + 1) / kBins;
   }
   for (const Verdict& verdict : verdicts) {
-    if (!(verdict.score >= 0 && verdict.score <= 1)) return std::nullopt;
-    const auto place = static_cast<std::size_t>(verdict.score * kBins);
+    const double probability = verdict.probability.value_or(verdict.score);
+    if (!(probability >= 0 && probability <= 1)) return std::nullopt;
+    const auto place = static_cast<std::size_t>(probability * kBins);
     ReliabilityBin& bin = calibration.bins[std::min(place, kBins - 1)];
     ++bin.count, ++calibration.count;
-    bin.mean_score += verdict.score;
+    bin.mean_score += probability;
     bin.right += verdict.correct;
   }
   for (ReliabilityBin& bin : calibration.bins) {

@@ -26,6 +26,8 @@ struct Verdict {
   int line = 0;  ///< of the results file (FoundInstance::line)
   /// Squared Mahalanobis distance of a right one's error; NaN: unknown (PoseMeter::surprise).
   double surprise = std::numeric_limits<double>::quiet_NaN();
+  /// That the rule finds it right, as far as the results know; where they do not say, the score.
+  std::optional<double> probability{};
 };
 
 /// The counts where the detections from `score` up are taken.

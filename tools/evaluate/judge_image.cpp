@@ -134,14 +134,16 @@ void show_rest(const Case& group, const Errors& errors, std::vector<bool>& shown
 }
 
 /// A detection of an instance that is not counted is neither right nor wrong.
-std::vector<Verdict> verdicts(const Case& group, const Errors& errors,
+std::vector<Verdict> verdicts(const Rule& rule, const Case& group, const Errors& errors,
                               const std::vector<std::size_t>& matched) {
   std::vector<Verdict> list;
   for (std::size_t k = 0; k < matched.size(); ++k) {
     const bool correct = matched[k] != kNone;
-    if (!correct || group.results[matched[k]]->counted)
-      list.push_back({group.found[k]->score, correct, group.found[k]->line,
-                      correct ? errors[k][matched[k]].surprise : kUnknown});
+    if (correct && !group.results[matched[k]]->counted) continue;
+    const FoundInstance& found = *group.found[k];
+    list.push_back(
+        {found.score, correct, found.line, correct ? errors[k][matched[k]].surprise : kUnknown});
+    if (!rule.takes_look_alikes) list.back().probability = found.pose_confidence;
   }
   return list;
 }
@@ -163,7 +165,7 @@ std::vector<Verdict> apply(const Rule& rule, std::size_t place, const Case& grou
         group.results[matched[k]]->met[place] += 1 / static_cast<double>(rule.conditions.size());
     if (rule.average()) continue;
     show(group, errors, matched, shown);
-    list = verdicts(group, errors, matched);
+    list = verdicts(rule, group, errors, matched);
   }
   return list;
 }

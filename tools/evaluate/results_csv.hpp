@@ -16,7 +16,9 @@ struct FoundInstance {
   int scene_id = 0, im_id = 0, obj_id = 0;
   double score = 0;  ///< or the confidence, where there is one
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< [m]
-  std::optional<geometry::Matrix6d> covariance{};                   ///< of the pose; a CSV has none
+  // What a CSV does not have:
+  std::optional<geometry::Matrix6d> covariance{};  ///< of the pose
+  std::optional<double> pose_confidence{};         ///< nodes/data/detections.hpp
 };
 
 /// Reads `scene_id,im_id,obj_id,score,R,t,time` (R: 9 numbers row by row; t in mm; both separated

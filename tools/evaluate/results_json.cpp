@@ -16,18 +16,20 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kSamePose = 1e-6;  // what a CSV rounds away, in m and of a matrix
 
-void add_covariance(FoundInstance& row, const std::vector<const FoundInstance*>& others) {
-  for (const FoundInstance* other : others)
-    if (row.T_scene_model.isApprox(other->T_scene_model, kSamePose))
-      row.covariance = other->covariance;
+void add_beliefs(FoundInstance& row, const std::vector<const FoundInstance*>& others) {
+  for (const FoundInstance* other : others) {
+    if (!row.T_scene_model.isApprox(other->T_scene_model, kSamePose)) continue;
+    row.covariance = other->covariance;
+    row.pose_confidence = other->pose_confidence;
+  }
 }
 
-void add_covariances(std::vector<FoundInstance>& rows, const std::vector<FoundInstance>& found) {
+/// What of a results.json is not in the CSV beside it.
+void add_beliefs(std::vector<FoundInstance>& rows, const std::vector<FoundInstance>& found) {
   std::map<std::tuple<int, int, int>, std::vector<const FoundInstance*>> by_key;
   for (const FoundInstance& one : found)
     by_key[{one.scene_id, one.im_id, one.obj_id}].push_back(&one);
-  for (FoundInstance& row : rows)
-    add_covariance(row, by_key[{row.scene_id, row.im_id, row.obj_id}]);
+  for (FoundInstance& row : rows) add_beliefs(row, by_key[{row.scene_id, row.im_id, row.obj_id}]);
 }
 
 }  // namespace
@@ -40,6 +42,8 @@ FoundInstance found_instance(const Json& frame, const Json& detection) {
   found.score = detection.at("confidence").get<double>();
   for (int i = 0; i < 16; ++i)
     found.T_scene_model.matrix()(i / 4, i % 4) = detection.at("T_scene_model").at(i).get<double>();
+  if (detection.contains("pose_confidence"))
+    found.pose_confidence = detection.at("pose_confidence").get<double>();
   const auto covariance = detection.find("covariance");
   if (covariance == detection.end() || covariance->is_null()) return found;
   found.covariance.emplace();
@@ -71,7 +75,7 @@ std::vector<FoundInstance> read_results(const std::string& file) {
   if (fs::path(file).extension() == ".json") return read_results_json(file);
   std::vector<FoundInstance> rows = read_results_csv(file);
   const fs::path beside = fs::path(file).replace_extension(".json");
-  if (fs::is_regular_file(beside)) add_covariances(rows, read_results_json(beside.string()));
+  if (fs::is_regular_file(beside)) add_beliefs(rows, read_results_json(beside.string()));
   return rows;
 }
 

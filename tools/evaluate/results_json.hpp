@@ -19,8 +19,8 @@ FoundInstance found_instance(const nlohmann::ordered_json& frame,
 /// std::runtime_error naming the file and what is wrong.
 std::vector<FoundInstance> read_results_json(const std::string& file);
 
-/// Of a results.json, or of a results.csv, whose rows get their covariances from the results.json
-/// of the same run beside it, if there is one.
+/// Of a results.json, or of a results.csv, whose rows get what a CSV lacks from the results.json of
+/// the same run beside it, if there is one.
 std::vector<FoundInstance> read_results(const std::string& file);
 
 }  // namespace posevote

@@ -66,7 +66,7 @@ std::vector<Rule> make_rules() {
       {"drost", "pose diameter/10, 12 deg", Needs::poses, {pose_within(0, 0.1, 12)}},
       {"add", "ADD/ADI 0.1 diameter", Needs::poses, {add_within(0.1)}},
       {"adi15", "ADD/ADI 0.15 diameter", Needs::poses, {add_within(0.15)}},
-      {"adds", "ADD-S 0.1 diameter", Needs::poses, {adds_within(0.1)}},
+      {"adds", "ADD-S 0.1 diameter", Needs::poses, {adds_within(0.1)}, true},
       {"mssd", "AR MSSD (BOP19)", Needs::poses,
        in_steps([](const PairErrors& e) { return e.mssd; }, 0.05, true)},
       {"mspd", "AR MSPD (BOP19)", Needs::camera,
@@ -75,7 +75,8 @@ std::vector<Rule> make_rules() {
       {"vsd18",
        "VSD 20 mm, 0.3 (SIXD18)",
        Needs::depth,
-       {below([](const PairErrors& e) { return e.vsd_2018; }, 0.3, false)}},
+       {below([](const PairErrors& e) { return e.vsd_2018; }, 0.3, false)},
+       true},
   };
 }
 

@@ -37,6 +37,7 @@ struct Rule {
   std::string text;                   ///< in tables
   Needs needs = Needs::poses;         ///< what an image must have
   std::vector<Condition> conditions;  ///< more than one: an average recall
+  bool takes_look_alikes = false;     ///< a pose that looks nearly the same is as right
   bool average() const { return conditions.size() > 1; }
 };
 

@@ -206,6 +206,18 @@ PYBIND11_MODULE(_posevote, module) {
             return turns;
           },
           "4 x 4 matrices S for which T @ S is as good a pose; the identity is first.")
+      .def_readonly("pose_confidence", &FoundObject::pose_confidence,
+                    "As confidence, look_alikes counted as wrong.")
+      .def_property_readonly(
+          "look_alikes",
+          [](const FoundObject& found) {
+            py::list others;
+            for (const LookAlikePose& other : found.look_alikes)
+              others.append(py::make_tuple(matrix(other.T_scene_model), other.probability));
+            return others;
+          },
+          "Other poses that the scan does not tell from T: pairs of a 4 x 4 matrix and the "
+          "probability that it is the right one, given that the object lies there.")
       .def_readonly("axes", &FoundObject::axes,
                     "Axes of continuous symmetry in the model's frame, through axis_point.")
       .def_readonly("axis_point", &FoundObject::axis_point, "[m]")

@@ -14,6 +14,7 @@
 #include "tools/report/html.hpp"
 #include "tools/report/model_list.hpp"
 #include "tools/report/shown_scan.hpp"
+#include "tools/symmetry_report.hpp"
 
 namespace posevote::page {
 namespace {
@@ -51,6 +52,7 @@ Json rounded(const std::vector<double>& matrix) {
 Json to_json(const ReportedObject& found, ModelList& models) {
   return {{"model", models.number_of(found.obj_id, found.model)},
           {"confidence", rounded(found.confidence)},
+          {"pose_confidence", rounded(found.pose_confidence)},
           {"score", rounded(found.score)},
           {"density", rounded(found.density)},
           {"runner_up_density", rounded(found.runner_up_density)},
@@ -178,6 +180,20 @@ std::string show_scans(std::vector<Shown>& frames, const ShownRun& inputs, const
   return all;
 }
 
+std::string look_alike_sentence(const ReportedObject& object) {
+  constexpr std::size_t kMostNamed = 3;
+  std::string text =
+      "What tells this pose from others is hidden, or lost in noise. As well may be: ";
+  for (std::size_t i = 0; i < std::min(kMostNamed, object.look_alikes.size()); ++i) {
+    const auto& [motion, probability] = object.look_alikes[i];
+    text += fmt::format("{}{} ({:.0f} %)", i > 0 ? "; " : "",
+                        turn_text(motion.topLeftCorner<3, 3>()), 100 * probability);
+  }
+  if (object.look_alikes.size() > kMostNamed)
+    text += fmt::format("; and {} more", object.look_alikes.size() - kMostNamed);
+  return text + ".";
+}
+
 }  // namespace
 
 std::size_t count_scans(const RunResults& run, const RunView& view) {
@@ -228,6 +244,7 @@ std::vector<std::string> sentences(const ReportedObject& object) {
   if (worst != object.against.end() && worst->second > 0)
     list.push_back(fmt::format("Most against it: {}, which takes {:.1f} from its log odds.",
                                worst->first, worst->second));
+  if (!object.look_alikes.empty()) list.push_back(look_alike_sentence(object));
   return list;
 }
 

@@ -65,7 +65,13 @@ ReportedObject to_object(const Json& json) {
                        pose(member(json, "T_scene_model")),
                        numbers(member(json, "clues")),
                        numbers(member(json, "against")),
-                       text(json, "why")};
+                       text(json, "why"),
+                       number(json, "pose_confidence")};
+  for (const Json& other : member(json, "look_alikes"))
+    if (const std::vector<double> motion = pose(member(other, "motion")); !motion.empty())
+      found.look_alikes.emplace_back(
+          Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(motion.data()),
+          number(other, "probability"));
   if (found.model.empty()) found.model = "object " + member(json, "obj_id").dump();
   return found;
 }

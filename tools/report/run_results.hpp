@@ -2,6 +2,7 @@
 // What a run has left in its folder, as far as it can be read.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -23,6 +24,8 @@ struct ReportedObject {
   std::vector<double> T_scene_model;  ///< 16 finite numbers row by row [m], or none
   NamedNumbers clues, against;
   std::string why;  ///< of a rejected one
+  double pose_confidence = 0;
+  std::vector<std::pair<Eigen::Matrix4d, double>> look_alikes{};  ///< motions and probabilities
 };
 
 struct AnsweredFrame {

@@ -38,6 +38,8 @@ assert len(from_depth[0].symmetries) == 4  # a box looks the same after half tur
 C = from_depth[0].covariance  # of xi in T_true = T @ exp(xi): a translation, a rotation vector
 assert C.shape == (6, 6) and np.linalg.eigvalsh(C).min() > 0 and np.sqrt(C[:3, :3].max()) < 0.005
 assert from_depth[0].seconds > 0
+assert 0 < from_depth[0].pose_confidence <= from_depth[0].confidence
+assert all(T.shape == (4, 4) and 0 < share < 1 for T, share in from_depth[0].look_alikes)
 assert min(np.abs(from_depth[0].T @ turn - truth).max() for turn in from_depth[0].symmetries) < 0.02
 
 # %% Raw units, as PNG files have them, and the same as an organised cloud with gaps.

@@ -27,6 +27,7 @@ Detections one_chef() {
   found.obj_id = 7;
   found.model = "chef";
   found.confidence = 0.5;
+  found.pose_confidence = 0.25;
   found.score = 0.4;
   found.density = 100;
   found.T_scene_model.linear() =
@@ -147,15 +148,34 @@ TEST_CASE("detections.csv names scan and model, in metres, quoted as RFC 4180 as
   formats::ResultsWriter(folder / "out").write(report, chef, {});
   const std::string text = read_text(folder / "out/detections.csv");
   const std::string head =
-      "frame,scan,scene_id,im_id,obj_id,model,confidence,x_m,y_m,z_m,qw,qx,qy,qz,rms_m\n"
+      "frame,scan,scene_id,im_id,obj_id,model,confidence,x_m,y_m,z_m,qw,qx,qy,qz,rms_m,pose_"
+      "confidence\n"
       "3,\"scans/a\nb.ply\",0,3,7,\"chef, \"\"old\"\"\",0.5,0.1,-0.2,1.5,";
   CHECK(text.substr(0, head.size()) == head);
-  double q[4], rms = 0;
-  REQUIRE(std::sscanf(text.c_str() + head.size(), "%lf,%lf,%lf,%lf,%lf\n", q, q + 1, q + 2, q + 3,
-                      &rms) == 5);
+  double q[4], rms = 0, pose_confidence = 0;
+  REQUIRE(std::sscanf(text.c_str() + head.size(), "%lf,%lf,%lf,%lf,%lf,%lf\n", q, q + 1, q + 2,
+                      q + 3, &rms, &pose_confidence) == 6);
+  CHECK(pose_confidence == 0.25);
   CHECK(q[0] == Approx(std::sqrt(0.5)));
   CHECK(q[3] == Approx(std::sqrt(0.5)));
   CHECK(rms == 0.00125);
+}
+
+TEST_CASE("poses that a scan does not tell apart are listed where there are any", "[write]") {
+  const TemporaryFolder folder;
+  formats::begin_results(folder / "out");
+  Detections chef = one_chef();
+  chef.items.push_back(chef.items[0]);
+  LookAlike& other = chef.items[0].look_alikes.emplace_back();
+  other.motion.translation().y() = 0.1;
+  other.probability = 0.5;
+  formats::ResultsWriter(folder / "out").write(frame(0), chef, {});
+  const auto found = json(folder / "out/results.json")["frames"][0]["detections"];
+  CHECK(found[0]["pose_confidence"] == 0.25);
+  REQUIRE(found[0]["look_alikes"].size() == 1);
+  CHECK(found[0]["look_alikes"][0]["motion"][7] == 0.1);
+  CHECK(found[0]["look_alikes"][0]["probability"] == 0.5);
+  CHECK_FALSE(found[1].contains("look_alikes"));
 }
 
 TEST_CASE("equal poses of a detection are listed as BOP does, in metres", "[write]") {

@@ -89,4 +89,43 @@ TEST_CASE("a twin whose place is taken does not compete", "[poses]") {
   CHECK(best.T_scene_model.matrix() == setting.wrong.T_scene_model.matrix());
 }
 
+TEST_CASE("look-alikes are the poses that nothing seen tells from the one found", "[poses]") {
+  Mistaken setting;
+  const auto others = [&](const poses::Candidate& found) {
+    return poses::look_alikes(setting.body.sought(), found);
+  };
+  CHECK(others(setting.wrong).empty());  // no near symmetry is known
+  setting.differ({}, {});
+  const std::vector<LookAlike> one = others(setting.wrong);
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].probability == Approx(0.5));
+  CHECK((setting.wrong.T_scene_model * one[0].motion).isApprox(setting.right.T_scene_model, 1e-9));
+  // Two points more on one of them, in standard deviations.
+  setting.differ({}, {setting.for_wrong[0], setting.for_wrong[1]});
+  const double odds = std::exp(-std::sqrt(2.0));
+  REQUIRE(others(setting.wrong).size() == 1);
+  CHECK(others(setting.wrong)[0].probability == Approx(odds / (1 + odds)));
+  setting.differ({}, setting.for_wrong);  // plain to see
+  CHECK(others(setting.wrong).empty());
+}
+
+TEST_CASE("several look-alikes share what is probable; a symmetry is none", "[poses]") {
+  Mistaken setting;
+  setting.differ({}, {});
+  Model& model = setting.body.model;
+  NearSymmetry back = model.near_symmetries.items[0];
+  back.motion = back.motion.inverse();
+  back.uncovered = {setting.for_wrong[0]};
+  model.near_symmetries.items.push_back(back);
+  const auto others = poses::look_alikes(setting.body.sought(), setting.wrong);
+  REQUIRE(others.size() == 2);
+  CHECK(others[0].probability > others[1].probability);
+  CHECK(others[1].probability / others[0].probability == Approx(std::exp(-1.0)));
+  CHECK(others[0].probability == Approx(1 / (2 + std::exp(-1.0))));
+  model.symmetries.turns.emplace_back(Eigen::Quaterniond(setting.motion.linear()).cast<float>());
+  REQUIRE(poses::look_alikes(setting.body.sought(), setting.wrong).size() == 1);
+  model.symmetries.axes = {Eigen::Vector3f::UnitX()};
+  CHECK(poses::look_alikes(setting.body.sought(), setting.wrong).empty());
+}
+
 }  // namespace posevote::twins_test

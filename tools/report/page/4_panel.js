@@ -43,7 +43,9 @@ posevote.panel = (() => {
 
   function detectionDetails(item) {
     return make('details', {}, make('summary', {}, 'pose, fit, clues'),
-        table([['confidence', digits(item.confidence, 4)], ['score', digits(item.score, 4)],
+        table([['confidence', digits(item.confidence, 4)],
+               ['of this very pose', digits(item.pose_confidence, 4)],
+               ['score', digits(item.score, 4)],
                ['inliers', `${digits(100 * item.inlier_fraction, 1)} %`],
                ['RMSE', `${digits(1000 * item.rmse_m, 3)} mm`],
                ['density', digits(item.density, 1)],
