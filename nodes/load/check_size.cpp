@@ -92,13 +92,19 @@ std::string advice(const Scan& scan, double size, const Sizes& models, const Par
          "(load_models.unit)";
 }
 
+/// Evenly taken; enough to tell a size.
+PointMatrix some_of(const PointMatrix& points) {
+  constexpr Eigen::Index kEnough = 20000;
+  return points(Eigen::seq(0, Eigen::last, points.rows() / kEnough + 1), Eigen::all);
+}
+
 using ScanPointer = std::shared_ptr<const Scan>;
 
 ScanPointer check_size(const ScanPointer& scan, const ModelLibrary& library, const Params& params) {
   if (scan->points.rows() == 0) throw std::runtime_error("the scan has no points");
   if (library.models.empty()) throw std::runtime_error("the model library is empty");
   const Sizes models = sizes_of(library);
-  const double size = geometry::robust_diagonal(scan->points, params.outliers);
+  const double size = geometry::robust_diagonal(some_of(scan->points), params.outliers);
   const bool fits =
       size >= params.smallest * models.smallest && size <= params.largest * models.largest;
   const bool sparse = size > models.largest && is_sparse(scan->points, models.largest);

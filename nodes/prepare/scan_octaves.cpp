@@ -9,10 +9,12 @@
 //
 //   scan_octaves: {in: [scan, library], out: [scale, octaves], radii: 2}
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -81,9 +83,14 @@ double finest_resolution(const Scan& scan, const std::vector<LibraryOctave>& oct
   double resolution =
       std::max(params.spacings * spacing, kFiner * static_cast<double>(octaves.front().resolution));
   double tilt = 0;
-  for (; resolution < coarsest; resolution *= std::numbers::sqrt2) {
-    const auto found = geometry::normal_noise(scan.points, rows, scan.view.origin,
-                                              kWidth * static_cast<float>(resolution));
+  std::array<std::optional<geometry::NoiseCubes>, 2> cubes;  // every other step is twice as wide
+  for (std::size_t step = 0; resolution < coarsest; ++step, resolution *= std::numbers::sqrt2) {
+    std::optional<geometry::NoiseCubes>& now = cubes[step % 2];
+    if (now)
+      now->widen();
+    else
+      now.emplace(scan.points, rows, kWidth * static_cast<float>(resolution));
+    const std::optional<float> found = now->tilt(scan.view.origin);
     if (found) tilt = static_cast<double>(*found);
     if (found && tilt <= params.tilt * kDegree) break;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "tools/simulate/fields.hpp"
@@ -214,13 +215,13 @@ bool is_manifold(const Mesh& mesh) {
   return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
-Mesh mesh_of(const Field& field, int cells) {
+std::optional<Mesh> mesh_of(const Field& field, int cells) {
   constexpr int kTries = 15;  // a slightly finer grid cuts the sheets elsewhere
   for (int i = 0; i < kTries; ++i) {
     Mesh mesh = surface_nets(field, kExtent, kExtent / (cells + i));
     if (is_manifold(mesh)) return mesh;
   }
-  throw std::runtime_error("has parts too thin to mesh; choose another seed");
+  return std::nullopt;
 }
 
 const Shape& find_shape(const std::string& name) {
@@ -233,7 +234,12 @@ const Shape& find_shape(const std::string& name) {
 Mesh raw_mesh(const std::string& shape, std::uint64_t seed) {
   const Shape& kind = find_shape(shape);
   Random random(seed);
-  return kind.mesh ? kind.mesh(random) : mesh_of(kind.field(random), kind.cells);
+  if (kind.mesh) return kind.mesh(random);
+  std::optional<Mesh> mesh = mesh_of(kind.field(random), kind.cells);
+  if (!mesh)
+    throw TooThin("the " + shape + " of seed " + std::to_string(seed) +
+                  " has parts too thin to mesh; choose another seed");
+  return *std::move(mesh);
 }
 
 /// Moves the bounding box' middle to the origin; gives its sides.

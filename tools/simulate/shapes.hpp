@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,14 @@ struct ShapeSymmetry {
 };
 ShapeSymmetry symmetry_of(const std::string& shape);
 
+/// Thrown for what chance made too thin for a mesh; another seed makes another one.
+struct TooThin : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A mesh whose bounding box is centred at the origin and `size` [m] long on its longest side: fine
 /// ones have about 5 000 to 50 000 vertices, the others at most 1000 triangles. Throws
-/// std::invalid_argument for an unknown shape.
+/// std::invalid_argument for an unknown shape, TooThin.
 Mesh make_shape(const std::string& shape, std::uint64_t seed, double size);
 
 /// The same, stretched to the three sides of a box [m].

@@ -58,6 +58,15 @@ ShapeSymmetry symmetry_of_model(const ModelSpec& model, const Mesh& mesh) {
   return model.file.empty() ? symmetry_of(model.shape) : find_symmetry(mesh, model.file);
 }
 
+/// Of the next seed that makes one.
+Mesh make_any(const std::string& shape, Random& random, double size) {
+  try {
+    return make_shape(shape, random.next(), size);
+  } catch (const TooThin&) {
+    return make_any(shape, random, size);
+  }
+}
+
 /// Bodies of kinds that no model is of, as long as there are such kinds.
 std::vector<SharedMesh> make_clutter(const Spec& spec) {
   std::vector<std::string> kinds = fine_shape_names();
@@ -67,8 +76,7 @@ std::vector<SharedMesh> make_clutter(const Spec& spec) {
   graph::parallel_for(kClutter, 1, [&](std::size_t i) {
     Random random(static_cast<std::uint64_t>(spec.seed), ~std::uint64_t{i});  // no image's stream
     const double size = random.uniform(0.08, 0.2) * (spec.clutter_size / 0.2);
-    clutter[i] =
-        std::make_shared<const Mesh>(make_shape(kinds[i % kinds.size()], random.next(), size));
+    clutter[i] = std::make_shared<const Mesh>(make_any(kinds[i % kinds.size()], random, size));
   });
   return clutter;
 }

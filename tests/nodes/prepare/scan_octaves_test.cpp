@@ -117,13 +117,27 @@ TEST_CASE("how far noise tilts normals is measured over patches", "[prepare]") {
   const Scan scan = wall(1, 0.001F, 0.0002F);
   const auto rows = geometry::finite_rows(scan.points);
   const auto tilt = [&](float width) {
-    return geometry::normal_noise(scan.points, rows, Eigen::Vector3f::Zero(), width);
+    return geometry::NoiseCubes(scan.points, rows, width).tilt(Eigen::Vector3f::Zero());
   };
   CHECK(tilt(0.005F).value() == Approx(std::sqrt(12.0 / 25) * 0.04).epsilon(0.15));
   CHECK(tilt(0.01F).value() == Approx(std::sqrt(12.0 / 100) * 0.02).epsilon(0.2));
   CHECK_FALSE(tilt(0.05F));   // hardly a patch has neighbours
   CHECK_FALSE(tilt(0.002F));  // four points make no patch
-  CHECK_FALSE(geometry::normal_noise(scan.points, {}, Eigen::Vector3f::Zero(), 0.01F));
+  CHECK_FALSE(geometry::NoiseCubes(scan.points, {}, 0.01F).tilt(Eigen::Vector3f::Zero()));
+}
+
+TEST_CASE("cubes that are widened tell what cubes of that width do", "[prepare]") {
+  for (const double far : {1, 1000}) {  // digits must not be lost
+    Scan scan = wall(1, 0.001F, 0.0002F);
+    scan.points.col(0).array() += static_cast<float>(far);
+    const auto rows = geometry::finite_rows(scan.points);
+    geometry::NoiseCubes cubes(scan.points, rows, 0.005F);
+    cubes.widen();
+    const auto seen_from = Eigen::Vector3f(static_cast<float>(far), 0, 0);
+    const auto tilt = geometry::NoiseCubes(scan.points, rows, 0.01F).tilt(seen_from);
+    REQUIRE(tilt);
+    CHECK(cubes.tilt(seen_from).value() == Approx(*tilt).epsilon(1e-5));
+  }
 }
 
 TEST_CASE("a scan has the finest octaves of each object that its sensor can tell", "[prepare]") {
