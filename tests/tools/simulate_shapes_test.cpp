@@ -67,6 +67,12 @@ TEST_CASE("a shape depends on its seed alone", "[simulate]") {
   CHECK_THROWS_AS(make_shape("cube", 1, 0.2), std::invalid_argument);
 }
 
+TEST_CASE("a shape that chance made too thin is named", "[simulate]") {
+  CHECK_THROWS_MATCHES(make_shape("figure", 2539018531502807723U, 0.2), TooThin,
+                       Catch::Message("the figure of seed 2539018531502807723 has parts too thin "
+                                      "to mesh; choose another seed"));
+}
+
 TEST_CASE("random numbers: known first value, mean 0, deviation 1, streams apart", "[simulate]") {
   CHECK(Random(0).next() == 0xE220A8397B1DCDAFU);  // splitmix64's published test value
   Random random(3);
