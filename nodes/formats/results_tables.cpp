@@ -45,7 +45,9 @@ std::string table_rows(const ordered_json& frame) {
       rows += csv_field(found.at(key)) + ",";
     for (const char* key : {"t_m", "q_wxyz"})
       for (const ordered_json& number : found.at(key)) rows += csv_field(number) + ",";
-    rows += csv_field(found.at("rmse_m")) + "," + csv_field(found.at("pose_confidence")) + "\n";
+    const auto very_pose = found.find("pose_confidence");  // not of a run by an earlier version
+    rows += csv_field(found.at("rmse_m")) + "," +
+            (very_pose != found.end() ? csv_field(*very_pose) : "") + "\n";
   }
   return rows;
 }

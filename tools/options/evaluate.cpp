@@ -15,8 +15,11 @@ void add_options(CLI::App& app, EvaluateCommand& command) {
       "2018);\n"
       "or all. ECE: expected calibration error of the score as the probability to be right, of "
       "all\n"
-      "detections in ten bins. A column 'confidence' behind 'time' is judged instead of the "
-      "score.\nin 95%: of right detections that have a covariance (results.json, also that beside "
+      "detections in ten bins; where there is a results.json, by rules that tell look-alikes "
+      "apart\n"
+      "(all but adds and vsd18) of its pose_confidence. A column 'confidence' behind 'time' is\n"
+      "judged instead of the score.\nin 95%: of right detections that have a covariance "
+      "(results.json, also that beside "
       "a "
       "results.csv),\nthe share whose true error lies within its 95 % ellipsoid.");
   app.add_option("dataset", command.dataset, "A data set: BOP, SIXD 2017, UWA or Queen's")

@@ -156,6 +156,9 @@ TEST_CASE("detections.csv names scan and model, in metres, quoted as RFC 4180 as
   REQUIRE(std::sscanf(text.c_str() + head.size(), "%lf,%lf,%lf,%lf,%lf,%lf\n", q, q + 1, q + 2,
                       q + 3, &rms, &pose_confidence) == 6);
   CHECK(pose_confidence == 0.25);
+  nlohmann::ordered_json earlier = formats::to_json(report, chef);  // before it was written
+  earlier["detections"][0].erase("pose_confidence");
+  CHECK_THAT(formats::table_rows(earlier), Catch::EndsWith(",0.00125,\n"));
   CHECK(q[0] == Approx(std::sqrt(0.5)));
   CHECK(q[3] == Approx(std::sqrt(0.5)));
   CHECK(rms == 0.00125);
