@@ -128,6 +128,7 @@ FoundObject to_found(const Detection& detection) {
   found.name = detection.model;
   found.obj_id = detection.obj_id;
   found.confidence = detection.confidence;
+  found.pose_confidence = detection.pose_confidence();
   found.T_scene_model = to_matrix(detection.T_scene_model);
   if (detection.covariance) found.covariance = to_array(*detection.covariance);
   const Symmetries& symmetries = detection.symmetries;
@@ -138,7 +139,6 @@ FoundObject to_found(const Detection& detection) {
                   Eigen::Translation3d(-fixed)));
   for (const Eigen::Vector3f& axis : symmetries.axes) found.axes.push_back(to_array(axis));
   found.axis_point = to_array(symmetries.fixed_point);
-  found.pose_confidence = detection.pose_confidence;
   for (const LookAlike& other : detection.look_alikes)
     found.look_alikes.push_back(
         {to_matrix(detection.T_scene_model * other.motion), other.probability});

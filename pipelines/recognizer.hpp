@@ -93,7 +93,8 @@ struct FoundObject {
   int obj_id = 0;
   /// In [0, 1]: the probability that it is right, one of its look_alikes counted as right.
   double confidence = 0;
-  Matrix4 T_scene_model{};  ///< [m]
+  double pose_confidence = 0;  ///< the same, its look_alikes counted as wrong
+  Matrix4 T_scene_model{};     ///< [m]
   /// 6 x 6, row by row, of the pose error xi: T_true = T_scene_model exp(xi), where xi is a twist in
   /// the model's frame, about its origin: a translation [m], then a rotation vector [rad]. What
   /// nothing holds, as the turn of a can, has a large variance. Empty where the pose was not refined.
@@ -103,12 +104,11 @@ struct FoundObject {
   std::vector<Matrix4> symmetries;
   /// Axes of continuous symmetry, unit vectors in the model's frame; they go through axis_point.
   std::vector<std::array<double, 3>> axes;
-  std::array<double, 3> axis_point{};  ///< [m]
-  double inlier_share = 0;     ///< of the model points that face the sensor, those on scene points
-  double rms = 0;              ///< of the inliers' distance to the scan's surface [m]
-  double pose_confidence = 0;  ///< as confidence, look_alikes counted as wrong
+  std::array<double, 3> axis_point{};      ///< [m]
   std::vector<LookAlikePose> look_alikes;  ///< the likeliest first
-  double seconds = 0;  ///< spent on the search for it, since the object's instance before
+  double inlier_share = 0;  ///< of the model points that face the sensor, those on scene points
+  double rms = 0;           ///< of the inliers' distance to the scan's surface [m]
+  double seconds = 0;       ///< spent on the search for it, since the object's instance before
 };
 
 /// The answer to one scan.

@@ -19,7 +19,6 @@ struct Detection {
   double confidence = 0;         ///< in [0, 1]: the probability that the object lies so, or so that
                                  ///< what the scan shows of it is the same
   Clues clues{};                 ///< what the confidence was made from
-  double pose_confidence = 0;    ///< and that it is none of its look_alikes instead
   double score = 0;              ///< in [0, 1]: how well it fits
   double density = 0;            ///< of the mode, raw (before anything was subtracted)
   double runner_up_density = 0;  ///< highest raw density of the same object farther than 20 % of
@@ -33,9 +32,16 @@ struct Detection {
   double seconds = 0;     ///< that the search for it took (poses/object_search.hpp)
   Symmetries symmetries;  ///< of the model: poses that look the same, in colour where that is known
   std::vector<LookAlike> look_alikes{};  ///< other poses that the scan does not tell from this one
-  std::optional<ColorClues> colors{};    ///< likewise, where the scan and the model have any
+  std::optional<ColorClues> colors{};    ///< part of the clues, where scan and model have any
   Clues against{};  ///< what each clue takes from the log odds, beside usual right detections
   std::string why;  ///< of a rejected one: the threshold that it missed
+
+  /// The confidence that it is none of its look_alikes instead.
+  double pose_confidence() const {
+    double left = confidence;
+    for (const LookAlike& other : look_alikes) left -= confidence * other.probability;
+    return left;
+  }
 };
 
 /// All detections of a frame, in descending order of confidence.

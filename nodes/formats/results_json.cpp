@@ -82,7 +82,7 @@ ordered_json to_json(const Detection& found) {
   if (found.colors)
     json["colors"] = {{"likeness", found.colors->likeness}, {"tint", found.colors->tint}};
   if (found.why.empty())
-    json["pose_confidence"] = found.pose_confidence;
+    json["pose_confidence"] = found.pose_confidence();
   else
     json["why"] = found.why;
   if (found.symmetries.any()) json["symmetries"] = to_json(found.symmetries);

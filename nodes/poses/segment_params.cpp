@@ -63,9 +63,6 @@ Detection make_detection(const Model& model, const Candidate& candidate,
   detection.score = candidate.score();
   detection.confidence = candidate.confidence;
   detection.look_alikes = candidate.look_alikes;
-  detection.pose_confidence = candidate.confidence;
-  for (const LookAlike& other : candidate.look_alikes)
-    detection.pose_confidence -= candidate.confidence * other.probability;
   detection.clues = candidate.clues;
   detection.against = against(candidate.clues, terms);
   detection.inlier_fraction = candidate.fit.inlier_fraction;

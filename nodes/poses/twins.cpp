@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include "graph/parallel.hpp"
 #include "nodes/poses/confidence.hpp"
@@ -14,13 +13,20 @@
 namespace posevote::poses {
 namespace {
 
+/// As a near symmetry of the model makes it, not refined.
+Candidate twin_of(const Sought& sought, const Candidate& candidate, std::size_t near_symmetry) {
+  Candidate twin = candidate;
+  twin.is_refined = false;
+  twin.near_symmetry = near_symmetry;
+  twin.T_scene_model =
+      candidate.T_scene_model * sought.model.near_symmetries.items[near_symmetry].motion;
+  return twin;
+}
+
 Candidates make_twins(const Sought& sought, const Candidate& candidate) {
-  const std::vector<NearSymmetry>& near = sought.model.near_symmetries.items;
-  Candidates twins(near.size(), candidate);
+  Candidates twins(sought.model.near_symmetries.items.size());
   graph::parallel_for(twins.size(), 1, [&](std::size_t i) {
-    twins[i].is_refined = false;
-    twins[i].near_symmetry = i;
-    twins[i].T_scene_model = candidate.T_scene_model * near[i].motion;
+    twins[i] = twin_of(sought, candidate, i);
     judge(sought, twins[i], {{sought.terms.schedule.look_points}});
   });
   sort_by_rank(twins.begin(), twins.end());
@@ -34,6 +40,11 @@ double log_odds_over(const Sought& sought, const Candidate& origin, const Candid
   const TwinTerms& terms = sought.terms.twins;
   return log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
          terms.lead_odds * std::clamp(lead, -terms.telling, terms.telling);
+}
+
+/// Beside colours, whose places are apart, points that err alike must not count each.
+double lead_of_both(double by_color, double by_shape, const Sought& sought) {
+  return by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
 }
 
 constexpr double kSameTurn = 0.35;    // [rad] 20 deg, as in find_symmetries
@@ -58,7 +69,7 @@ double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate t
   if (!candidate.colors) return by_shape;
   twin.colors = measure_colors(sought, twin.T_scene_model, sought.terms.color.look_points);
   const double by_color = color_lead(twin.colors, candidate.colors);
-  return by_color == 0 ? by_shape : by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
+  return by_color == 0 ? by_shape : lead_of_both(by_color, by_shape, sought);
 }
 
 }  // namespace
@@ -68,14 +79,11 @@ std::vector<LookAlike> look_alikes(const Sought& sought, const Candidate& candid
   const Symmetries& known = candidate.symmetries ? *candidate.symmetries : sought.model.symmetries;
   std::vector<LookAlike> others(near.size());
   graph::parallel_for(near.size(), 1, [&](std::size_t i) {
-    const Eigen::Isometry3d& motion = near[i].motion;
-    if (is_among(Eigen::Quaterniond(motion.linear()), known)) return;
-    Candidate twin = candidate;
-    twin.near_symmetry = i;
-    twin.T_scene_model = candidate.T_scene_model * motion;
+    if (is_among(Eigen::Quaterniond(near[i].motion.linear()), known)) return;
     // What speaks for the other was outweighed when this one was chosen.
-    const double lead = std::min(lead_of_all(sought, candidate, std::move(twin)), 0.0);
-    others[i] = {motion, std::exp(sought.terms.twins.lead_odds * lead)};
+    const double lead =
+        std::min(lead_of_all(sought, candidate, twin_of(sought, candidate, i)), 0.0);
+    others[i] = {near[i].motion, std::exp(sought.terms.twins.lead_odds * lead)};
   });
   double sum = 1;
   for (const LookAlike& other : others) sum += other.probability;
@@ -93,11 +101,9 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
   for (const Candidate& twin : twins) {
     const double by_color = color_lead(twin.colors, candidate.colors);
     const double by_shape = lead_over(sought, candidate, twin);
-    // Beside colours, whose places are apart, points that err alike must not count each; and what
-    // colours tell leaves no need to ask the confidences.
-    const double lead = by_color == 0
-                            ? log_odds_over(sought, candidate, twin, by_shape)
-                            : by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
+    // What colours tell leaves no need to ask the confidences.
+    const double lead = by_color == 0 ? log_odds_over(sought, candidate, twin, by_shape)
+                                      : lead_of_both(by_color, by_shape, sought);
     if (lead <= highest || !taken.is_clear(sought, twin.T_scene_model)) continue;
     best = twin;
     highest = lead;

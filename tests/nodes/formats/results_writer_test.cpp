@@ -27,7 +27,7 @@ Detections one_chef() {
   found.obj_id = 7;
   found.model = "chef";
   found.confidence = 0.5;
-  found.pose_confidence = 0.25;
+  found.look_alikes = {{Eigen::Isometry3d::Identity(), 0.5}};
   found.score = 0.4;
   found.density = 100;
   found.T_scene_model.linear() =
@@ -169,9 +169,8 @@ TEST_CASE("poses that a scan does not tell apart are listed where there are any"
   formats::begin_results(folder / "out");
   Detections chef = one_chef();
   chef.items.push_back(chef.items[0]);
-  LookAlike& other = chef.items[0].look_alikes.emplace_back();
-  other.motion.translation().y() = 0.1;
-  other.probability = 0.5;
+  chef.items[0].look_alikes[0].motion.translation().y() = 0.1;
+  chef.items[1].look_alikes.clear();
   formats::ResultsWriter(folder / "out").write(frame(0), chef, {});
   const auto found = json(folder / "out/results.json")["frames"][0]["detections"];
   CHECK(found[0]["pose_confidence"] == 0.25);
