@@ -42,7 +42,7 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
                                                  UsableVotes, 3>;
 
 VoteDensity textbook_density(const VoteSet& votes, const density::DensityParams& params) {
-  const density::Bandwidth bandwidth = params.bandwidth();
+  const density::Bandwidth bandwidth = params.bandwidth_of(votes);
   VoteDensity result;
   result.index =
       std::make_shared<const density::PoseIndex>(votes, bandwidth);  // segmentation needs it

@@ -24,10 +24,13 @@ constexpr double kOutliers = 0.05;  // of the points, at either end of each axis
 
 using Place = std::array<float, 3>;
 
+/// Of the places alone, not of the unit: the same for places twice as far out.
 std::uint64_t hash_of(const Place& place) {
-  const std::uint64_t x = std::bit_cast<std::uint32_t>(place[0]);
-  const std::uint64_t y = std::bit_cast<std::uint32_t>(place[1]);
-  return splitmix64(splitmix64(x << 32 | y) ^ std::bit_cast<std::uint32_t>(place[2]));
+  constexpr std::uint32_t kFraction = 0x007FFFFF;
+  const auto bits = [&](std::size_t axis) -> std::uint64_t {
+    return std::bit_cast<std::uint32_t>(place[axis]) & kFraction;
+  };
+  return splitmix64(splitmix64(bits(0) << 32 | bits(1)) ^ bits(2));
 }
 
 /// The finite points; of many only about `most`, chosen by where they are: neither their order nor

@@ -34,7 +34,7 @@ namespace {
 struct Params {
   double resolution = 0;
   double fraction = 0.0085;
-  double finest = 0.0005;
+  double finest = 0;
   bool own = false;
   int octaves = 3;
   double step = std::numbers::sqrt2;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 #include <limits>
+#include <map>
 #include <random>
+#include <string>
 
 #include "nodes/data/votes.hpp"
 #include "tests/support/run_node.hpp"
@@ -11,6 +13,8 @@ namespace posevote::textbook_density_test {
 using namespace posevote::test;
 
 namespace {
+
+const std::map<std::string, std::string> kTenMillimetres{{"sigma_t", "0.01"}};
 
 /// Votes in a cube of 10 cm, of which each has some dozens near in translation.
 VoteSet random_votes(std::size_t count) {
@@ -38,14 +42,14 @@ TEST_CASE("the textbook's densities are ours to the last bit", "[baseline]") {
   VoteSet votes = random_votes(20000);
   votes.tx[7] = std::numeric_limits<float>::quiet_NaN();
   votes.qw[9] = 3;
-  const auto ours = run_node<VoteDensity>("estimate_density", {}, votes).density;
-  CHECK(run_node<VoteDensity>("textbook_density", {}, votes).density == ours);
+  const auto ours = run_node<VoteDensity>("estimate_density", kTenMillimetres, votes).density;
+  CHECK(run_node<VoteDensity>("textbook_density", kTenMillimetres, votes).density == ours);
   CHECK(ours[7] == 0);
   CHECK(*std::max_element(ours.begin(), ours.end()) > 3);
 }
 
 TEST_CASE("the textbook has no densities of no votes", "[baseline]") {
-  CHECK(run_node<VoteDensity>("textbook_density", {}, VoteSet{}).density.empty());
+  CHECK(run_node<VoteDensity>("textbook_density", kTenMillimetres, VoteSet{}).density.empty());
 }
 
 }  // namespace posevote::textbook_density_test
