@@ -45,10 +45,10 @@ Plane plane_at(const Cloud& scan, std::size_t i) {
 /// The plane of least squares; its normal on the side of that of `like`.
 Plane fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows, const Plane& like) {
   const auto [mean, covariance] = geometry::moments_of(scan.points, rows);
-  Eigen::Vector3f up = geometry::spread_of(covariance).across.normalized().cast<float>();
+  Eigen::Vector3f up = geometry::spread_of(covariance).across.cast<float>();
   if (up.isZero()) return like;
   if (up.dot(like.normal()) < 0) up = -up;
-  return {up, Eigen::Vector3f(mean.cast<float>())};
+  return {up.normalized(), Eigen::Vector3f(mean.cast<float>())};
 }
 
 std::optional<Plane> largest_plane(const Cloud& scan, float depth) {

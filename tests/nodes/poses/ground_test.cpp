@@ -62,27 +62,6 @@ TEST_CASE("a face that lies in the largest plane is no ground", "[poses]") {
   CHECK(share(table(), 0, 1 + 0.5F * kEdge) == 0);
 }
 
-TEST_CASE("the ground is the plane of its points, however small: normals may be off", "[poses]") {
-  const float times = GENERATE(1.0F, 1.0F / 64);
-  Cloud scan = table();
-  for (Eigen::Index i = 0; i < scan.normals.rows(); ++i)
-    scan.normals.row(i) = Eigen::RowVector3f(0.2F, 0.1F, -1).normalized();
-  scan.points *= times;
-  Model model = cube();
-  model.cloud.points *= times;
-  model.outline.hull *= times;
-  const geometry::RangeView view(scan, times * kSpacing);
-  const poses::Ground ground(scan, times * kDepth);
-  const auto share_at = [&](double x, double z) {
-    const Eigen::Translation3d place(times * x, 0, times * z);
-    return ground.share_inside(model, Eigen::Isometry3d(place), view);
-  };
-  for (const double x : {-0.1, 0.0, 0.1}) {
-    CHECK(share_at(x, 1 - 0.5 * double(kEdge)) == 0);
-    CHECK(share_at(x, 1) == Approx(0.5).margin(0.05));
-  }
-}
-
 TEST_CASE("where nothing is flat there is no ground", "[poses]") {
   Cloud scan = table();
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
