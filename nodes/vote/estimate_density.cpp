@@ -8,7 +8,8 @@
 // screw all votes lie within 10 mm. Exact; the search is described in pose_index.hpp.
 // Cost grows with the number of votes times the number of votes around each.
 //
-// Fails never: a vote that is not finite counts nowhere and gets density 0. No votes, no densities.
+// Fails only for votes of no model, whose bandwidth cannot be derived. A vote that is not finite
+// counts nowhere and gets density 0. No votes, no densities.
 //
 //   estimate_density: {in: votes, out: densities, fraction: 0.06, sigma_r: 22.5}
 #include "nodes/density/density_params.hpp"

@@ -4,12 +4,17 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <map>
 #include <random>
+#include <string>
 
 #include "nodes/data/votes.hpp"
 #include "nodes/density/kernel.hpp"
 
 namespace posevote::test {
+
+/// The bandwidth of votes of no model, as a node's parameters: there is no size to derive it from.
+inline const std::map<std::string, std::string> kTenMillimetres{{"sigma_t", "0.01"}};
 
 inline void add_vote(VoteSet& votes, const Eigen::Vector3f& t, const Eigen::Quaternionf& q) {
   votes.votes_per_correspondence = 1;

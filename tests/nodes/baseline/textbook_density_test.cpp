@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 #include <limits>
-#include <map>
 #include <random>
-#include <string>
 
 #include "nodes/data/votes.hpp"
 #include "tests/support/run_node.hpp"
+#include "tests/support/votes.hpp"
 
 namespace posevote::textbook_density_test {
 
 using namespace posevote::test;
 
 namespace {
-
-const std::map<std::string, std::string> kTenMillimetres{{"sigma_t", "0.01"}};
 
 /// Votes in a cube of 10 cm, of which each has some dozens near in translation.
 VoteSet random_votes(std::size_t count) {

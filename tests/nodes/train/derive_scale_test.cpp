@@ -48,7 +48,7 @@ TEST_CASE("derive_scale is a share of the mean diagonal", "[prepare]") {
   CHECK(derived({small, large}, {{"fraction", "0.01"}}) == Approx(0.01 * 0.2 * std::sqrt(3)));
 }
 
-TEST_CASE("derive_scale is never finer than one may say, unless it is given", "[prepare]") {
+TEST_CASE("derive_scale is never finer than the finest, unless it is given", "[prepare]") {
   const Mesh tiny = test::box({0, 0, 0}, 0.01F);
   CHECK(derived({tiny}) == Approx(0.0085 * 0.01 * std::sqrt(3)));
   CHECK(derived({tiny}, {{"finest", "0.0005"}}) == Approx(0.0005));

@@ -13,8 +13,6 @@
 namespace posevote::estimate_density_test {
 namespace {
 
-const std::map<std::string, std::string> kTenMillimetres{{"sigma_t", "0.01"}};
-
 TEST_CASE("estimate_density finds the pose on which votes agree", "[vote]") {
   std::mt19937 random(1);
   VoteSet votes = test::spread_votes(random, 2000, 0.1F);
@@ -22,7 +20,7 @@ TEST_CASE("estimate_density finds the pose on which votes agree", "[vote]") {
   for (int i = 0; i < 30; ++i)
     test::add_vote(votes, Eigen::Vector3f(0.01F, 0, 0) + 0.002F * test::random_direction(random),
                    q);
-  const auto result = test::run_node<VoteDensity>("estimate_density", kTenMillimetres, votes);
+  const auto result = test::run_node<VoteDensity>("estimate_density", test::kTenMillimetres, votes);
   REQUIRE(result.density.size() == 2030);
   CHECK(*std::min_element(result.density.begin(), result.density.end()) >= 1);
   CHECK(std::max_element(result.density.begin(), result.density.end()) - result.density.begin() >=
@@ -61,12 +59,13 @@ TEST_CASE("the bandwidth follows from the object's size, unless it is said", "[v
   CHECK(sigma_t({{"fraction", "0.1"}}) == Approx(0.05));
   CHECK(sigma_t({{"fraction", "0.1"}, {"sigma_t", "0.01"}}) == 0.01F);
   votes.model = nullptr;
-  CHECK(sigma_t(kTenMillimetres) == 0.01F);
+  CHECK(sigma_t(test::kTenMillimetres) == 0.01F);
   CHECK_THROWS_WITH(sigma_t({}), Catch::Contains("of no model"));
 }
 
 TEST_CASE("estimate_density of no votes is empty", "[vote]") {
-  const auto result = test::run_node<VoteDensity>("estimate_density", kTenMillimetres, VoteSet{});
+  const auto result =
+      test::run_node<VoteDensity>("estimate_density", test::kTenMillimetres, VoteSet{});
   CHECK(result.density.empty());
   REQUIRE(result.index != nullptr);
 }
