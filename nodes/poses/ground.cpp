@@ -43,15 +43,17 @@ Plane plane_at(const Cloud& scan, std::size_t i) {
 }
 
 /// The plane of least squares; its normal on the side of that of `like`.
-Plane fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows, const Plane& like) {
+Ground::Extent fit_plane(const Cloud& scan, const std::vector<std::size_t>& rows,
+                         const Plane& like) {
   const auto [mean, covariance] = geometry::moments_of(scan.points, rows);
-  Eigen::Vector3f up = geometry::spread_of(covariance).across.cast<float>();
-  if (up.isZero()) return like;
+  const auto radius = static_cast<float>(std::sqrt(covariance.trace()));
+  Eigen::Vector3f up = geometry::spread_of(covariance).across.normalized().cast<float>();
+  if (up.isZero()) return {like, radius};
   if (up.dot(like.normal()) < 0) up = -up;
-  return {up.normalized(), Eigen::Vector3f(mean.cast<float>())};
+  return {Plane(up, Eigen::Vector3f(mean.cast<float>())), radius};
 }
 
-std::optional<Plane> largest_plane(const Cloud& scan, float depth) {
+std::optional<Ground::Extent> largest_plane(const Cloud& scan, float depth) {
   const std::vector<std::size_t> sample =
       geometry::sample_of(static_cast<std::size_t>(scan.points.rows()));
   if (sample.empty()) return std::nullopt;
@@ -66,7 +68,7 @@ std::optional<Plane> largest_plane(const Cloud& scan, float depth) {
   Plane best = trial(static_cast<std::size_t>(first - counts.begin()));
   const std::vector<std::size_t> most = points_on(best, scan, sample, kRough * depth);
   if (most.size() * kLeastShare < sample.size() || most.size() < 3) return std::nullopt;
-  best = fit_plane(scan, most, best);
+  best = fit_plane(scan, most, best).plane;
   const std::vector<std::size_t> close = points_on(best, scan, sample, depth);
   if (close.size() < 3) return std::nullopt;
   return fit_plane(scan, close, best);
@@ -75,21 +77,22 @@ std::optional<Plane> largest_plane(const Cloud& scan, float depth) {
 }  // namespace
 
 Ground::Ground(const Cloud& scan, float depth)
-    : depth_(depth), viewpoint_(scan.view.origin), plane_(largest_plane(scan, depth)) {}
+    : depth_(depth), viewpoint_(scan.view.origin), extent_(largest_plane(scan, depth)) {}
 
 double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
                             const geometry::RangeView& view) const {
-  if (!plane_) return 0;
+  if (!extent_ || extent_->radius <= model.diagonal / 2) return 0;
+  const Plane& plane = extent_->plane;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::RowVector3f up = plane_->normal().transpose() * T.linear();
-  const float height = plane_->signedDistance(T.translation());
+  const Eigen::RowVector3f up = plane.normal().transpose() * T.linear();
+  const float height = plane.signedDistance(T.translation());
   const Eigen::RowVectorXf heights = (up * model.outline.hull).array() + height;
   if (heights.minCoeff() >= -depth_ || heights.maxCoeff() <= depth_) return 0;
   const Eigen::Index stride = model.cloud.points.rows() / kSample + 1;
   double inside = 0, all = 0;
   for (Eigen::Index i = 0; i < model.cloud.points.rows(); i += stride, ++all)
     inside += up.dot(model.cloud.points.row(i)) + height < -depth_;
-  return inside > 0 && is_seen_around(*plane_, model.cloud, T, view) ? inside / all : 0;
+  return inside > 0 && is_seen_around(plane, model.cloud, T, view) ? inside / all : 0;
 }
 
 bool Ground::is_seen_around(const Plane& plane, const Cloud& model,

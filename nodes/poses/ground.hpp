@@ -21,21 +21,26 @@ class Ground {
 
   /// The share of the posed model's points that lie in the ground; of some 1000, evenly chosen. 0
   /// where the ground is not seen beside where the model would go into it: in the recesses of
-  /// trays, beyond edges, behind other things; and of what does not rise above the plane, which may
-  /// be its own face: in a bin full of cartons their lids are the largest plane.
+  /// trays, beyond edges, behind other things. Nor is there ground for what may be the plane itself:
+  /// what does not rise above it (in a bin full of cartons their lids are the largest plane), or is
+  /// as large as it (a scan whose background is cut away shows the object's own faces alone).
   double share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
                       const geometry::RangeView& view) const;
 
- private:
   using Plane = Eigen::Hyperplane<float, 3>;
+  struct Extent {
+    Plane plane;       ///< normal up, to the sensor
+    float radius = 0;  ///< root mean square distance of its points from their mean [m]
+  };
 
+ private:
   bool is_seen_around(const Plane& plane, const Cloud& model,
                       const Eigen::Isometry3f& T_scene_model,
                       const geometry::RangeView& view) const;
 
   float depth_;
   Eigen::Vector3f viewpoint_;
-  std::optional<Plane> plane_;  // normal up, to the sensor
+  std::optional<Extent> extent_;
 };
 
 }  // namespace posevote::poses

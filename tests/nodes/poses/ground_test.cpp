@@ -2,6 +2,7 @@
 #include "nodes/poses/ground.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "nodes/geometry/extreme_points.hpp"
 #include "tests/support/box_cloud.hpp"
@@ -15,20 +16,21 @@ Model cube() {
   Model model;
   model.cloud = test::box_cloud(Eigen::Vector3f::Constant(kEdge), kSpacing);
   model.outline.hull = geometry::extreme_points(model.cloud.points).cast<float>();
+  model.diagonal = kEdge * std::sqrt(3.0F);
   return model;
 }
 
-/// A table 1 m before the sensor, 0.4 m wide, and what else `add` puts there.
+/// A table 1 m before the sensor, and what else `add` puts there.
 template <typename Add>
-Cloud table(const Add& add) {
+Cloud table(const Add& add, float width = 0.4F) {
   std::vector<Eigen::RowVector3f> points, normals;
   add(points, normals);
-  test::add_rectangle(points, normals, {0, 0, 1}, {0, 0.4F, 0}, {0.4F, 0, 0}, kSpacing);
+  test::add_rectangle(points, normals, {0, 0, 1}, {0, width, 0}, {width, 0, 0}, kSpacing);
   return geometry::cloud_of(points, normals);
 }
 
-Cloud table() {
-  return table([](auto&, auto&) {});
+Cloud table(float width = 0.4F) {
+  return table([](auto&, auto&) {}, width);
 }
 
 double share(const Cloud& scan, float x, float z) {
@@ -60,6 +62,33 @@ TEST_CASE("the ground says nothing where it is not seen", "[poses]") {
 
 TEST_CASE("a face that lies in the largest plane is no ground", "[poses]") {
   CHECK(share(table(), 0, 1 + 0.5F * kEdge) == 0);
+}
+
+TEST_CASE("the ground is the plane of its points, however small: normals may be off", "[poses]") {
+  const float times = GENERATE(1.0F, 1.0F / 64);
+  Cloud scan = table();
+  for (Eigen::Index i = 0; i < scan.normals.rows(); ++i)
+    scan.normals.row(i) = Eigen::RowVector3f(0.2F, 0.1F, -1).normalized();
+  scan.points *= times;
+  Model model = cube();
+  model.cloud.points *= times;
+  model.outline.hull *= times;
+  model.diagonal *= times;
+  const geometry::RangeView view(scan, times * kSpacing);
+  const poses::Ground ground(scan, times * kDepth);
+  const auto share_at = [&](double x, double z) {
+    const Eigen::Translation3d place(times * x, 0, times * z);
+    return ground.share_inside(model, Eigen::Isometry3d(place), view);
+  };
+  for (const double x : {-0.1, 0.0, 0.1}) {
+    CHECK(share_at(x, 1 - 0.5 * double(kEdge)) == 0);
+    CHECK(share_at(x, 1) == Approx(0.5).margin(0.05));
+  }
+}
+
+TEST_CASE("a plane no larger than what may be seen of the object is no ground", "[poses]") {
+  CHECK(share(table(0.25F), 0, 1) > 0.4);
+  CHECK(share(table(0.18F), 0, 1) == 0);
 }
 
 TEST_CASE("where nothing is flat there is no ground", "[poses]") {
