@@ -104,6 +104,18 @@ TEST_CASE("visible fractions: half behind, wholly behind, in front", "[simulate]
   CHECK(scan({far, wall}, sensor, kAtOrigin, 1).views[0].fraction() == 1);
 }
 
+TEST_CASE("what lies beside the image is not visible", "[simulate]") {
+  const Sensor sensor = find_sensor("laser");
+  const double edge = -sensor.camera.cx / sensor.camera.fx;  // of the image, 1 m away
+  const BodyView half = scan({ball(0.1, {edge, 0, 1})}, sensor, kAtOrigin, 1).views[0];
+  CHECK(half.fraction() == Approx(0.5).margin(0.02));
+  CHECK(half.box_alone.x == Approx(-half.box_visible.width).margin(10));
+  CHECK(half.valid <= half.visible);
+  const BodyView none = scan({ball(0.1, {edge - 0.2, 0, 1})}, sensor, kAtOrigin, 1).views[0];
+  CHECK(none.alone > 0);
+  CHECK(none.visible == 0);
+}
+
 TEST_CASE("surfaces seen at a grazing angle give no return", "[simulate]") {
   Body plane = make_table(10);  // horizontal, 0.1 m below the sensor's axis
   plane.T_world_body = Eigen::Translation3d(0, 0.1, 2) *

@@ -13,22 +13,24 @@ namespace {
 
 constexpr int kNothing = -1;
 
-/// The pixels that a body can cover.
+/// The pixels that a body can cover, those beside the image, too, up to its size beyond each edge.
 PixelBox bounds(const std::vector<Eigen::Vector3f>& vertices, const Sensor& sensor) {
-  const double width = static_cast<double>(sensor.width);
-  const double height = static_cast<double>(sensor.height);
-  double left = width, top = height, right = -1, bottom = -1;
+  const auto width = static_cast<double>(sensor.width), height = static_cast<double>(sensor.height);
+  double left = 2 * width, top = 2 * height, right = -width, bottom = -height;
   for (const Eigen::Vector3f& point : vertices) {
-    if (point.z() < 1e-3F) return {0, 0, static_cast<int>(width), static_cast<int>(height)};
+    if (point.z() < 1e-3F) {
+      left = -width, right = 2 * width, top = -height, bottom = 2 * height;
+      break;
+    }
     const double u = sensor.camera.fx * point.x() / point.z() + sensor.camera.cx;
     const double v = sensor.camera.fy * point.y() / point.z() + sensor.camera.cy;
     left = std::min(left, u), right = std::max(right, u);
     top = std::min(top, v), bottom = std::max(bottom, v);
   }
-  const int x0 = static_cast<int>(std::clamp(std::floor(left), 0.0, width));
-  const int y0 = static_cast<int>(std::clamp(std::floor(top), 0.0, height));
-  const int x1 = static_cast<int>(std::clamp(std::ceil(right) + 1, 0.0, width));
-  const int y1 = static_cast<int>(std::clamp(std::ceil(bottom) + 1, 0.0, height));
+  const int x0 = static_cast<int>(std::clamp(std::floor(left), -width, 2 * width));
+  const int y0 = static_cast<int>(std::clamp(std::floor(top), -height, 2 * height));
+  const int x1 = static_cast<int>(std::clamp(std::ceil(right) + 1, -width, 2 * width));
+  const int y1 = static_cast<int>(std::clamp(std::ceil(bottom) + 1, -height, 2 * height));
   return {x0, y0, std::max(0, x1 - x0), std::max(0, y1 - y0)};
 }
 
@@ -57,7 +59,7 @@ Shot shoot(const RayCaster& caster, const Sensor& sensor) {
             std::vector<int>(pixels, kNothing)};
   graph::parallel_for(sensor.height, 4, [&](std::size_t v) {
     for (std::size_t u = 0; u < sensor.width; ++u) {
-      const auto hit = caster.first_hit(ray_of(sensor.camera, u, v));
+      const auto hit = caster.first_hit(ray_of(sensor.camera, double(u), double(v)));
       if (!hit) continue;
       const std::size_t pixel = v * sensor.width + u;
       shot.owner[pixel] = static_cast<int>(hit->body);
@@ -68,7 +70,7 @@ Shot shoot(const RayCaster& caster, const Sensor& sensor) {
   return shot;
 }
 
-/// Counts a body's pixels as if it were alone, and those that it is seen in.
+/// Counts a body's pixels as if it were alone and the image went on, and those that it is seen in.
 BodyView pixels_of(const Body& body, int index, const Eigen::Isometry3d& T_sensor_world,
                    const Shot& shot, const formats::DepthImage& depth) {
   const RayCaster alone({body}, T_sensor_world);
@@ -76,11 +78,12 @@ BodyView pixels_of(const Body& body, int index, const Eigen::Isometry3d& T_senso
   BodyView view;
   for (int y = box.y; y < box.y + box.height; ++y)
     for (int x = box.x; x < box.x + box.width; ++x) {
-      const auto u = static_cast<std::size_t>(x), v = static_cast<std::size_t>(y);
-      if (!alone.first_hit(ray_of(shot.sensor.camera, u, v))) continue;
-      const std::size_t pixel = v * shot.sensor.width + u;
+      if (!alone.first_hit(ray_of(shot.sensor.camera, x, y))) continue;
       ++view.alone;
       grow(view.box_alone, x, y);
+      const auto u = static_cast<std::size_t>(x), v = static_cast<std::size_t>(y);
+      if (x < 0 || y < 0 || u >= shot.sensor.width || v >= shot.sensor.height) continue;
+      const std::size_t pixel = v * shot.sensor.width + u;
       if (depth.values[pixel] != 0) ++view.valid;
       if (shot.owner[pixel] != index) continue;
       ++view.visible;
@@ -155,7 +158,7 @@ Scan points_of(const formats::DepthImage& depth, const Camera& camera) {
     if (depth.values[i] == 0) continue;
     const double z = depth.values[i] * camera.depth_scale * 0.001;
     cloud.points.row(count++) =
-        (z * ray_of(camera, i % depth.width, i / depth.width)).cast<float>();
+        (z * ray_of(camera, double(i % depth.width), double(i / depth.width))).cast<float>();
   }
   cloud.points.conservativeResize(count, 3);
   return cloud;

@@ -18,7 +18,7 @@ struct PixelBox {
 
 /// How much of a body is seen, in pixels and of its surface.
 struct BodyView {
-  int alone = 0;    ///< if nothing else were there
+  int alone = 0;    ///< if nothing else were there, and the image went on beyond its edges
   int visible = 0;  ///< of those, not hidden by another body
   int valid = 0;    ///< of `alone`, those where the image has a depth, of whatever body
   PixelBox box_alone, box_visible;

@@ -204,9 +204,8 @@ Sensor find_sensor(const std::string& name) {
   return found->second;
 }
 
-Eigen::Vector3d ray_of(const Camera& camera, std::size_t u, std::size_t v) {
-  return {(static_cast<double>(u) - camera.cx) / camera.fx,
-          (static_cast<double>(v) - camera.cy) / camera.fy, 1};
+Eigen::Vector3d ray_of(const Camera& camera, double u, double v) {
+  return {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1};
 }
 
 formats::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed) {
@@ -219,9 +218,9 @@ formats::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std
       const std::size_t pixel = v * sensor.width + u;
       const std::size_t hit = shared.looks_at(pixel, truth, sensor);
       if (behind_edge(truth, sensor, hit % sensor.width, hit / sensor.width)) continue;
-      image.values[pixel] =
-          measure(truth.depth[hit], truth.cosine[hit], ray_of(sensor.camera, u, v).norm(),
-                  shared.depth_at(pixel), sensor, Random(seed, pixel));
+      image.values[pixel] = measure(truth.depth[hit], truth.cosine[hit],
+                                    ray_of(sensor.camera, double(u), double(v)).norm(),
+                                    shared.depth_at(pixel), sensor, Random(seed, pixel));
     }
   });
   punch_holes(image, sensor.holes, Random(seed, beyond));

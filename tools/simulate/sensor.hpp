@@ -42,8 +42,8 @@ struct TrueDepth {
   std::vector<double> cosine;  ///< of the angle between ray and surface normal
 };
 
-/// The direction of a pixel's ray, with z = 1.
-Eigen::Vector3d ray_of(const Camera& camera, std::size_t u, std::size_t v);
+/// The direction of the ray through a pixel, or a place beside the image, with z = 1.
+Eigen::Vector3d ray_of(const Camera& camera, double u, double v);
 
 /// The image that the sensor takes. The same seed gives the same bits at any number of threads.
 formats::DepthImage take_image(const TrueDepth& truth, const Sensor& sensor, std::uint64_t seed);
