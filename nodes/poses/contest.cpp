@@ -29,10 +29,37 @@ std::vector<char> explained_by(const Claim& claim, const ScanState& scan) {
                         scan.cloud.points, scan.cloud.normals, claim.tolerance);
 }
 
+/// Which points of one lie where the other has no surface.
+std::vector<std::uint32_t> alone(const Claim& one, const Claim& other) {
+  const float reach = std::max(one.tolerance, other.tolerance);
+  const Eigen::Isometry3f T_other_one =
+      (other.candidate.T_scene_model.inverse() * one.candidate.T_scene_model).cast<float>();
+  const PointMatrix& points = one.model.cloud.points;
+  std::vector<std::uint32_t> rows;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3f place = T_other_one * Eigen::Vector3f(points.row(i).transpose());
+    if (!other.model_index.nearest.nearest(place, reach))
+      rows.push_back(static_cast<std::uint32_t>(i));
+  }
+  return rows;
+}
+
+/// By the surface that only one of two has, up to the lead that tells.
+double odds_where_different(const Claim& one, const Claim& other, const ScanState& scan,
+                            const Terms& terms) {
+  const auto weigh = [&](const Claim& of, const Claim& beside) {
+    return weigh_points(of.model.cloud, alone(of, beside), scan.surface, scan.view,
+                        of.candidate.T_scene_model, of.tolerance, terms.fit);
+  };
+  const double lead = lead_of(weigh(one, other), weigh(other, one));
+  return terms.twins.lead_odds * std::clamp(lead, -terms.twins.telling, terms.twins.telling);
+}
+
 }  // namespace
 
-bool goes_before(const Claim& rival, const Claim& first, const ScanState& scan) {
-  if (are_apart(rival, first)) return false;
+std::optional<double> log_odds_over(const Claim& rival, const Claim& first, const ScanState& scan,
+                                    const Terms& terms) {
+  if (are_apart(rival, first)) return std::nullopt;
   const std::vector<char> of_rival = explained_by(rival, scan),
                           of_first = explained_by(first, scan);
   double all_of_rival = 0, all_of_first = 0, shared = 0;
@@ -42,9 +69,10 @@ bool goes_before(const Claim& rival, const Claim& first, const ScanState& scan) 
     all_of_first += of_first[i];
     shared += of_rival[i] & of_first[i];
   }
-  if (shared == 0 || shared < kSame * std::min(all_of_rival, all_of_first)) return false;
-  return kTrustInExtent * std::log(all_of_rival / all_of_first) >
-         log_odds_of(first.candidate.confidence) - log_odds_of(rival.candidate.confidence);
+  if (shared == 0 || shared < kSame * std::min(all_of_rival, all_of_first)) return std::nullopt;
+  return log_odds_of(rival.candidate.confidence) - log_odds_of(first.candidate.confidence) +
+         kTrustInExtent * std::log(all_of_rival / all_of_first) +
+         odds_where_different(rival, first, scan, terms);
 }
 
 }  // namespace posevote::poses

@@ -2,6 +2,8 @@
 #include "nodes/poses/find_instances.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "graph/parallel.hpp"
 #include "nodes/poses/contest.hpp"
@@ -42,15 +44,32 @@ ObjectSearch* most_confident(const Searches& searches) {
   return best;
 }
 
-/// Of those that would be a detection, the one that goes before `best`, or that.
+/// Of a pose of another object that would be a detection, the log odds that it is right and not
+/// what `first` has; none where they are no rivals.
+std::optional<double> odds_of_rival(const ObjectSearch& rival, const ObjectSearch& first,
+                                    const ScanState& scan) {
+  if (&rival == &first || !rival.best() || rival.best()->confidence < rival.params().min_confidence)
+    return std::nullopt;
+  return log_odds_over(claim_of(rival), claim_of(first), scan, first.terms());
+}
+
+/// The one that goes before `best`, or that.
 ObjectSearch* ahead_of(ObjectSearch* best, const Searches& searches, const ScanState& scan) {
   ObjectSearch* ahead = best;
   for (ObjectSearch* rival : searches)
-    if (rival != ahead && rival->best() &&
-        rival->best()->confidence >= rival->params().min_confidence &&
-        goes_before(claim_of(*rival), claim_of(*ahead), scan))
-      ahead = rival;
+    if (odds_of_rival(*rival, *ahead, scan).value_or(0) > 0) ahead = rival;
   return ahead;
+}
+
+/// The probability that what `chosen` has is this object, if it is one of those that claim the
+/// same. What speaks for another was outweighed when it was chosen.
+double probability_of_identity(const ObjectSearch& chosen, const Searches& searches,
+                               const ScanState& scan) {
+  double others = 0;
+  for (const ObjectSearch* rival : searches)
+    if (const auto odds = odds_of_rival(*rival, chosen, scan))
+      others += std::exp(std::min(*odds, 0.0));
+  return 1 / (1 + others);
 }
 
 /// The search that has the best pose for the scan as it is now; null if none has any. What was
@@ -71,8 +90,9 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
   // When all that was proposed is used up, what was taken out may have uncovered other modes.
   while (propose(sorted))
     while (ObjectSearch* search = best_of(sorted, scan)) {
-      const Instance& instance = found.emplace_back(
+      Instance& instance = found.emplace_back(
           Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
+      instance.candidate.confidence *= probability_of_identity(*search, sorted, scan);
       search->accept();
       if (std::all_of(sorted.begin(), sorted.end(),
                       [](const ObjectSearch* s) { return s->is_full(); }))

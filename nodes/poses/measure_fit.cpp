@@ -217,6 +217,11 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
   return {fit.apparent.supported - fit.apparent.against(terms), fit.facing - fit.hidden};
 }
 
+double lead_of(const Evidence& one, const Evidence& other) {
+  const auto sides = static_cast<double>(one.sides + other.sides);
+  return sides > 0 ? (one.balance - other.balance) / std::sqrt(sides) : 0;
+}
+
 // quality = agreement x evidence x continuity.
 //
 // Agreement is the share of supporters among the points that take a side, as large as they look.

@@ -81,6 +81,10 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
                       const Eigen::Isometry3d& T_scene_model, float tolerance,
                       const FitTerms& terms = {});
 
+/// How much more speaks for one than for the other, in standard deviations, were the points
+/// independent.
+double lead_of(const Evidence& one, const Evidence& other);
+
 /// What a fit comes to, each in [0, 1] but where the outline speaks against itself.
 struct FitShares {
   double agreement = 0;   ///< of the points that take a side, those for the pose

@@ -28,6 +28,7 @@ class ObjectSearch {
   const Model& model() const { return sought_.model; }
   const geometry::SurfaceIndex& model_index() const { return *sought_.model_index; }
   const InstanceParams& params() const { return sought_.params; }
+  const Terms& terms() const { return sought_.terms; }
   /// The best pose when last asked for; none where all were below the threshold. Its `seconds`: how
   /// long this search has worked since its instance before.
   const std::optional<Candidate>& best() const { return best_; }

@@ -126,10 +126,7 @@ double lead_over(const Sought& sought, const Candidate& origin, const Candidate&
                         candidate.T_scene_model, sought.params.tolerance, sought.terms.fit);
   };
   const NearSymmetry& symmetry = sought.model.near_symmetries.items[twin.near_symmetry];
-  const Evidence for_twin = weigh(symmetry.carried_off, twin);
-  const Evidence for_origin = weigh(symmetry.uncovered, origin);
-  const auto sides = static_cast<double>(for_twin.sides + for_origin.sides);
-  return sides > 0 ? (for_twin.balance - for_origin.balance) / std::sqrt(sides) : 0;
+  return lead_of(weigh(symmetry.carried_off, twin), weigh(symmetry.uncovered, origin));
 }
 
 }  // namespace posevote::poses

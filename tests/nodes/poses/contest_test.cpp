@@ -36,6 +36,10 @@ struct Contest {
 
   /// Whether the whole goes before the part, at these confidences, the part moved by `aside` [m].
   bool whole_first(double of_all, double of_part, double aside = 0) const {
+    return odds_of_whole(of_all, of_part, aside).value_or(-1) > 0;
+  }
+
+  std::optional<double> odds_of_whole(double of_all, double of_part, double aside = 0) const {
     Candidate whole, other;
     whole.confidence = of_all;
     other.confidence = of_part;
@@ -43,24 +47,36 @@ struct Contest {
     constexpr float kTolerance = 2 * kSpacing;
     const geometry::SurfaceIndex whole_index(all.cloud.points, kTolerance),
         part_index(part.cloud.points, kTolerance);
-    return goes_before({all, whole_index, whole, kTolerance}, {part, part_index, other, kTolerance},
-                       state);
+    return log_odds_over({all, whole_index, whole, kTolerance},
+                         {part, part_index, other, kTolerance}, state, {});
   }
 };
 
 }  // namespace
 
 TEST_CASE("what explains much more of the same goes first, unless it is far less sure", "[poses]") {
-  const Contest contest;  // the whole has 1.6 times the points: worth 2.9 in the odds
+  const Contest contest;  // 1.6 times the points, worth 2.9 in the odds, and two deviations
   CHECK(contest.whole_first(0.9, 0.9));
   CHECK(contest.whole_first(0.9, 0.98));
-  CHECK_FALSE(contest.whole_first(0.6, 0.99));
+  CHECK_FALSE(contest.whole_first(0.3, 0.99));
 }
 
 TEST_CASE("poses that share little of the scan are no rivals", "[poses]") {
   const Contest contest;
   CHECK(contest.whole_first(0.9, 0.9, 0.03));
   CHECK_FALSE(contest.whole_first(0.9, 0.9, 0.2));  // nowhere near
+}
+
+TEST_CASE("of two that claim the same, the scan decides where only one has a surface", "[poses]") {
+  Contest contest;
+  contest.part = model_of(0.098F, 0.08F);
+  const double alike = contest.odds_of_whole(0.9, 0.9).value();
+  CHECK(std::abs(alike) < 0.3);  // nothing of either lies outside the other's tolerance
+  contest.scan = face(0.1F, 0.08F);
+  contest.part = model_of(0.09F, 0.08F);
+  const double seen = contest.odds_of_whole(0.9, 0.9).value();
+  CHECK(seen > 2);  // the two deviations that count, and a little for the extent
+  CHECK(contest.odds_of_whole(0.9, 0.99).value() == Approx(seen - 2.4).margin(0.1));
 }
 
 TEST_CASE("what was taken out of the scan is nobody's", "[poses]") {
