@@ -93,8 +93,10 @@ struct FoundObject {
   int obj_id = 0;
   /// In [0, 1]: the probability that it is right, one of its look_alikes counted as right.
   double confidence = 0;
-  double pose_confidence = 0;  ///< the same, its look_alikes counted as wrong
-  Matrix4 T_scene_model{};     ///< [m]
+  /// The same, its look_alikes counted as wrong, and times the probability that it is no other
+  /// object that fits there.
+  double pose_confidence = 0;
+  Matrix4 T_scene_model{};  ///< [m]
   /// 6 x 6, row by row, of the pose error xi: T_true = T_scene_model exp(xi), where xi is a twist in
   /// the model's frame, about its origin: a translation [m], then a rotation vector [rad]. What
   /// nothing holds, as the turn of a can, has a large variance. Empty where the pose was not refined.

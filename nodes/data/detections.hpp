@@ -32,15 +32,16 @@ struct Detection {
   double seconds = 0;     ///< that the search for it took (poses/object_search.hpp)
   Symmetries symmetries;  ///< of the model: poses that look the same, in colour where that is known
   std::vector<LookAlike> look_alikes{};  ///< other poses that the scan does not tell from this one
-  std::optional<ColorClues> colors{};    ///< part of the clues, where scan and model have any
+  double identity = 1;  ///< the probability that it is this object, and no other that fits there
+  std::optional<ColorClues> colors{};  ///< part of the clues, where scan and model have any
   Clues against{};  ///< what each clue takes from the log odds, beside usual right detections
   std::string why;  ///< of a rejected one: the threshold that it missed
 
-  /// The confidence that it is none of its look_alikes instead.
+  /// The confidence that it is none of its look_alikes instead, and no other object.
   double pose_confidence() const {
     double left = confidence;
     for (const LookAlike& other : look_alikes) left -= confidence * other.probability;
-    return left;
+    return left * identity;
   }
 };
 

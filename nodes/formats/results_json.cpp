@@ -118,7 +118,9 @@ const ordered_json& about() {
        "says how probably, given that the object lies there"},
       {"confidence",
        "the probability that the detection is right, one of its look_alikes counted as right"},
-      {"pose_confidence", "the same, its look_alikes counted as wrong"},
+      {"pose_confidence",
+       "the same, its look_alikes counted as wrong, and times the probability that it is no other "
+       "object that fits there"},
       {"seconds",
        "of a frame: of the run's time its share; stages: of that, of each step. Of a detection: of "
        "segment_objects, the time spent on the search for this object, since its instance before"},

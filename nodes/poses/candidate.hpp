@@ -42,6 +42,7 @@ struct Candidate {
   std::optional<geometry::Matrix6d> covariance{};  ///< of what may be a detection
   std::optional<Symmetries> symmetries{};          ///< likewise (color_turns.hpp)
   std::vector<LookAlike> look_alikes{};            ///< likewise (twins.hpp)
+  double identity = 1;                             ///< of instances (data/detections.hpp)
   double seconds = 0;                              ///< that its search took (object_search.hpp)
   std::size_t near_symmetry = 0;                   ///< for twins: which of the model's made them
   double score() const { return quality * consensus; }

@@ -92,7 +92,7 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
     while (ObjectSearch* search = best_of(sorted, scan)) {
       Instance& instance = found.emplace_back(
           Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
-      instance.candidate.confidence *= probability_of_identity(*search, sorted, scan);
+      instance.candidate.identity = probability_of_identity(*search, sorted, scan);
       search->accept();
       if (std::all_of(sorted.begin(), sorted.end(),
                       [](const ObjectSearch* s) { return s->is_full(); }))

@@ -63,6 +63,7 @@ Detection make_detection(const Model& model, const Candidate& candidate,
   detection.score = candidate.score();
   detection.confidence = candidate.confidence;
   detection.look_alikes = candidate.look_alikes;
+  detection.identity = candidate.identity;
   detection.clues = candidate.clues;
   detection.against = against(candidate.clues, terms);
   detection.inlier_fraction = candidate.fit.inlier_fraction;

@@ -206,8 +206,9 @@ PYBIND11_MODULE(_posevote, module) {
             return turns;
           },
           "4 x 4 matrices S for which T @ S is as good a pose; the identity is first.")
-      .def_readonly("pose_confidence", &FoundObject::pose_confidence,
-                    "As confidence, look_alikes counted as wrong.")
+      .def_readonly(
+          "pose_confidence", &FoundObject::pose_confidence,
+          "As confidence, look_alikes counted as wrong, and other objects that fit there.")
       .def_property_readonly(
           "look_alikes",
           [](const FoundObject& found) {
