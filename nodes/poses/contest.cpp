@@ -6,6 +6,7 @@
 
 #include "nodes/poses/confidence.hpp"
 #include "nodes/poses/explain_points.hpp"
+#include "nodes/poses/twins.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -44,15 +45,14 @@ std::vector<std::uint32_t> alone(const Claim& one, const Claim& other) {
   return rows;
 }
 
-/// By the surface that only one of two has, up to the lead that tells.
+/// By the surface that only one of two has.
 double odds_where_different(const Claim& one, const Claim& other, const ScanState& scan,
                             const Terms& terms) {
   const auto weigh = [&](const Claim& of, const Claim& beside) {
     return weigh_points(of.model.cloud, alone(of, beside), scan.surface, scan.view,
                         of.candidate.T_scene_model, of.tolerance, terms.fit);
   };
-  const double lead = lead_of(weigh(one, other), weigh(other, one));
-  return terms.twins.lead_odds * std::clamp(lead, -terms.twins.telling, terms.twins.telling);
+  return log_odds_of_lead(lead_of(weigh(one, other), weigh(other, one)), terms.twins);
 }
 
 }  // namespace

@@ -33,13 +33,11 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
   return twins;
 }
 
-/// By what both were judged by, and where they differ. What points say counts up to the lead that
-/// tells: they err alike, so more of it is no surer.
+/// By what both were judged by, and where they differ.
 double log_odds_over(const Sought& sought, const Candidate& origin, const Candidate& twin,
                      double lead) {
-  const TwinTerms& terms = sought.terms.twins;
   return log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
-         terms.lead_odds * std::clamp(lead, -terms.telling, terms.telling);
+         log_odds_of_lead(lead, sought.terms.twins);
 }
 
 /// Beside colours, whose places are apart, points that err alike must not count each.
@@ -118,6 +116,10 @@ bool is_better_by_color(const Sought& sought, const Candidate& rival, const Cand
   return color_lead(rival.colors, best.colors) > sought.terms.twins.telling &&
          rival.confidence > best.confidence &&
          (center(rival) - center(best)).norm() < sought.params.nms_radius;
+}
+
+double log_odds_of_lead(double lead, const TwinTerms& terms) {
+  return terms.lead_odds * std::clamp(lead, -terms.telling, terms.telling);
 }
 
 double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {

@@ -26,6 +26,10 @@ bool is_better_by_color(const Sought& sought, const Candidate& rival, const Cand
 /// probabilities leave of 1 is the pose's own, and a trifle of those that are left out.
 std::vector<LookAlike> look_alikes(const Sought& sought, const Candidate& candidate);
 
+/// What a lead of so many standard deviations adds to the log odds. It counts up to what tells: points
+/// err alike, so more of it is no surer.
+double log_odds_of_lead(double lead, const TwinTerms& terms);
+
 /// How much more the scan speaks for a twin than for the pose that a near symmetry made it of,
 /// where they differ, in standard deviations, were the points independent.
 double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin);

@@ -72,7 +72,6 @@ TEST_CASE("of two that claim the same, the scan decides where only one has a sur
   contest.part = model_of(0.098F, 0.08F);
   const double alike = contest.odds_of_whole(0.9, 0.9).value();
   CHECK(std::abs(alike) < 0.3);  // nothing of either lies outside the other's tolerance
-  contest.scan = face(0.1F, 0.08F);
   contest.part = model_of(0.09F, 0.08F);
   const double seen = contest.odds_of_whole(0.9, 0.9).value();
   CHECK(seen > 2);  // the two deviations that count, and a little for the extent
