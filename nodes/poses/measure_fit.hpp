@@ -75,7 +75,8 @@ struct Evidence {
   std::size_t sides = 0;  ///< those that take a side
 };
 
-/// By the model's points with these numbers.
+/// By the model's points with these numbers. Of a side so grazing that a sensor may miss it, what is
+/// not supported says nothing.
 Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& points,
                       const geometry::ScanSurface& scan, const geometry::RangeView& view,
                       const Eigen::Isometry3d& T_scene_model, float tolerance,

@@ -2,8 +2,8 @@
 #include "nodes/poses/measure_fit.hpp"
 
 #include <catch2/catch.hpp>
-#include <numeric>
 
+#include "nodes/geometry/select_rows.hpp"
 #include "tests/support/box_cloud.hpp"
 #include "tests/support/bumpy_scene.hpp"
 
@@ -42,18 +42,26 @@ TEST_CASE("named points weigh what they say of a pose", "[poses]") {
   const Cloud scan = scan_of({kBody});
   const geometry::RangeView view(scan, kResolution);
   const geometry::ScanSurface surface(scan, view.usable(), kTolerance);
-  std::vector<std::uint32_t> all(static_cast<std::size_t>(model.points.rows()));
-  std::iota(all.begin(), all.end(), 0);
   const auto weigh = [&](const Eigen::Isometry3d& T, const std::vector<std::uint32_t>& points) {
     return poses::weigh_points(model, points, surface, view, T, kTolerance);
   };
   for (const Eigen::Isometry3d& T : {kBody.T_scene_model, pose(0.03, 0, 0.8, 0)}) {
-    const poses::Fit fit = fit_of(model, scan, T);
-    const poses::Evidence evidence = weigh(T, all);
+    std::vector<std::uint32_t> plain, grazing;  // 70 deg
+    for (Eigen::Index i = 0; i < model.points.rows(); ++i) {
+      const auto p = geometry::posed_point(model, i, T.cast<float>());
+      (p.normal.dot(-p.point.normalized()) < 0.35F ? grazing : plain)
+          .push_back(static_cast<std::uint32_t>(i));
+    }
+    const poses::Fit fit = fit_of(geometry::select_rows(model, plain), scan, T);
+    const poses::Evidence evidence = weigh(T, plain);
     const auto count = [](std::size_t n) { return static_cast<double>(n); };
     CHECK(evidence.sides == fit.facing - fit.hidden);
     CHECK(evidence.balance == count(fit.supported) - count(fit.contradicted) -
                                   0.5 * count(fit.mismatched + fit.unseen));
+    // What need not be measured speaks for a pose, not against it.
+    const poses::Evidence sides_seen = weigh(T, grazing);
+    CHECK(sides_seen.balance == count(sides_seen.sides));
+    CHECK(sides_seen.sides < grazing.size());
   }
   CHECK(weigh(kBody.T_scene_model, {}).sides == 0);
 }
