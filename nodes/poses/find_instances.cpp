@@ -32,9 +32,11 @@ bool propose(const Searches& searches) {
 }
 
 /// What a search has to offer is claimed as far as what is supported.
-Claim claim_of(const ObjectSearch& search) {
-  return {search.model(), search.model_index(), *search.best(), search.params().tolerance};
+Claim claim_of(const ObjectSearch& search, const Candidate& pose) {
+  return {search.model(), search.model_index(), pose, search.params().tolerance};
 }
+
+Claim claim_of(const ObjectSearch& search) { return claim_of(search, *search.best()); }
 
 ObjectSearch* most_confident(const Searches& searches) {
   ObjectSearch* best = nullptr;
@@ -61,6 +63,36 @@ ObjectSearch* ahead_of(ObjectSearch* best, const Searches& searches, const ScanS
   return ahead;
 }
 
+constexpr double kSure = 0.95;  // a confidence from which on nobody else is asked
+
+/// The search that has a pose where `first` has one, though not its best, and goes before it; null
+/// if none has. What was taken out since may have uncovered it.
+ObjectSearch* ahead_there(const ObjectSearch& first, const Searches& searches,
+                          const ScanState& scan) {
+  const Claim claim = claim_of(first);
+  if (claim.candidate.confidence >= kSure) return nullptr;
+  const Eigen::Vector3d center = posed_center(claim.candidate.T_scene_model, claim.model.center);
+  std::vector<Candidates> others(searches.size());
+  graph::parallel_for(searches.size(), 1, [&](std::size_t i) {
+    const float smaller = std::min(searches[i]->model().diagonal, claim.model.diagonal);
+    if (searches[i] != &first)
+      others[i] = searches[i]->look_near(center, static_cast<double>(smaller / 2));
+  });
+  double most = 0;
+  ObjectSearch* ahead = nullptr;
+  const Candidate* pose = nullptr;
+  for (std::size_t i = 0; i < searches.size(); ++i)
+    for (const Candidate& other : others[i]) {
+      const double odds =
+          log_odds_over(claim_of(*searches[i], other), claim, scan, first.terms()).value_or(0);
+      if (odds <= most) continue;
+      most = odds;
+      ahead = searches[i];
+      pose = &other;
+    }
+  return ahead && ahead->prefer(*pose) ? ahead : nullptr;
+}
+
 /// The probability that what `chosen` has is this object, if it is one of those that claim the
 /// same. What speaks for another was outweighed when it was chosen.
 double probability_of_identity(const ObjectSearch& chosen, const Searches& searches,
@@ -78,7 +110,11 @@ ObjectSearch* best_of(const Searches& searches, const ScanState& scan) {
   for (;;) {
     ObjectSearch* best = most_confident(searches);
     if (best && best->is_current()) best = ahead_of(best, searches, scan);
-    if (!best || best->is_current()) return best;
+    if (!best) return nullptr;
+    if (best->is_current()) {
+      ObjectSearch* other = ahead_there(*best, searches, scan);
+      return other ? other : best;
+    }
     best->choose();
   }
 }

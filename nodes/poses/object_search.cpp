@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "graph/parallel.hpp"
@@ -30,6 +31,22 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+void show(const Sought& sought, const char* step, const Candidates& candidates) {
+  if (sought.watch) sought.watch(step, candidates);
+}
+
+/// From what was collected to the order in which they may be finalists.
+void sift(const Sought& sought, Candidates& pool, const Improve& improve) {
+  make_shortlist(sought, pool);
+  show(sought, "glance", pool);
+  sketch(sought, pool, improve);
+  show(sought, "sketch", pool);
+  leave_out_likes(sought, pool);
+  show(sought, "leave out likes", pool);
+  bring_closer(sought, pool);
+  show(sought, "bring closer", pool);
+}
+
 }  // namespace
 
 ObjectSearch::ObjectSearch(const Sought& sought, Proposals proposals)
@@ -46,15 +63,8 @@ void ObjectSearch::propose() {
   {
     const Stopwatch watch(seconds_);
     pool_ = collect(sought_, proposals_.propose(), taken_);
-    show("propose", pool_);
-    make_shortlist(sought_, pool_);
-    show("glance", pool_);
-    sketch(sought_, pool_, proposals_.improve);
-    show("sketch", pool_);
-    leave_out_likes(sought_, pool_);
-    show("leave out likes", pool_);
-    bring_closer(sought_, pool_);
-    show("bring closer", pool_);
+    show(sought_, "propose", pool_);
+    sift(sought_, pool_, proposals_.improve);
   }
   proposed_at_ = sought_.scan.takes;
   choose();
@@ -73,23 +83,59 @@ void ObjectSearch::choose() {
 void ObjectSearch::choose_best() {
   chosen_at_ = sought_.scan.takes;
   bring_finalists_forward(sought_, pool_);
-  show("look", pool_);
+  show(sought_, "look", pool_);
   best_ = best_finalist();
   if (best_) {
-    show("choose", {*best_});
-    const bool is_promising = is_convincing(sought_, *best_);
-    if (is_promising) polish(sought_, *best_);
-    best_->symmetries = symmetries_left(sought_, *best_);
-    const bool is_clear = taken_.is_clear(sought_, best_->T_scene_model);
-    if (is_clear && is_promising && is_convincing(sought_, *best_)) {
-      best_->covariance = pose_covariance(sought_, best_->T_scene_model);
-      best_->look_alikes = look_alikes(sought_, *best_);
-      return;
-    }
-    if (is_clear) refused_.push_back(*best_);
+    show(sought_, "choose", {*best_});
+    if (settle(*best_)) return;
+    if (taken_.is_clear(sought_, best_->T_scene_model)) refused_.push_back(*best_);
   }
   best_.reset();
   pool_.clear();
+}
+
+/// Makes it exact, and adds what is told of a detection; false where it is none.
+bool ObjectSearch::settle(Candidate& chosen) const {
+  const bool is_promising = is_convincing(sought_, chosen);
+  if (is_promising) polish(sought_, chosen);
+  chosen.symmetries = symmetries_left(sought_, chosen);
+  if (!is_promising || !is_convincing(sought_, chosen)) return false;
+  if (!taken_.is_clear(sought_, chosen.T_scene_model)) return false;
+  chosen.covariance = pose_covariance(sought_, chosen.T_scene_model);
+  chosen.look_alikes = look_alikes(sought_, chosen);
+  return true;
+}
+
+Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance) const {
+  if (is_full()) return {};
+  std::vector<Hypothesis> all = proposals_.propose(), there;
+  std::erase_if(all, [this](const Hypothesis& one) { return !taken_.is_clear(one.center); });
+  std::ranges::copy_if(all, std::back_inserter(there), [&](const Hypothesis& one) {
+    return (one.center.cast<double>() - point).norm() <= distance;
+  });
+  Sought near = sought_;  // for support is compared among these
+  near.watch = {};
+  Candidates pool = collect(near, std::move(there), taken_);
+  for (Candidate& one : pool)
+    one.elsewhere = support_elsewhere(all, one.proposed.center, near.model);
+  sift(near, pool, proposals_.improve);
+  bring_finalists_forward(near, pool);
+  std::erase_if(pool, [&](const Candidate& one) { return !may_win(near, one); });
+  if (pool.empty()) return {};
+  pool.erase(refine_best(near, pool), pool.end());
+  std::erase_if(pool, [&](const Candidate& one) {
+    return one.confidence < near.params.min_confidence || !taken_.is_clear(near, one.T_scene_model);
+  });
+  return pool;
+}
+
+bool ObjectSearch::prefer(Candidate other) {
+  const Stopwatch watch(seconds_);
+  if (!settle(other)) return false;
+  best_ = std::move(other);
+  best_->seconds = seconds_;
+  chosen_at_ = sought_.scan.takes;
+  return true;
 }
 
 /// Finalists that ICP carries onto instances that are found already leave the pool, and the next
@@ -101,7 +147,7 @@ std::optional<Candidate> ObjectSearch::best_finalist() {
     const Candidates::iterator end = refine_best(sought_, pool_);
     if (end == pool_.begin()) break;
     std::ranges::stable_sort(pool_.begin(), end, std::greater(), &Candidate::confidence);
-    if (sought_.watch) show("refine", {pool_.begin(), end});
+    if (sought_.watch) show(sought_, "refine", {pool_.begin(), end});
     const std::optional<Candidate> best = best_of(pool_.begin(), end);
     if (best && is_convincing(sought_, *best)) return best_of_place(*best);
     if (doubtful) break;

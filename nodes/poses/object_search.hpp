@@ -49,6 +49,11 @@ class ObjectSearch {
   void propose();
   /// Chooses among the poses that are left of those that were proposed.
   void choose();
+  /// Poses that would be detections of the scan as it is now, proposed with their centres within
+  /// `distance` of a point [m] and refined. `best` stays what it is.
+  Candidates look_near(const Eigen::Vector3d& point, double distance) const;
+  /// Makes one of them `best`, unless it convinces no more when it is exact.
+  bool prefer(Candidate other);
   /// Makes `best` an instance, whose neighbourhood is closed to others of this object. To be called
   /// before what it explains is taken out of the scan.
   void accept();
@@ -56,10 +61,8 @@ class ObjectSearch {
   void accept(const Candidate& known);
 
  private:
-  void show(const char* step, const Candidates& candidates) const {
-    if (sought_.watch) sought_.watch(step, candidates);
-  }
   void choose_best();
+  bool settle(Candidate& chosen) const;
   std::optional<Candidate> best_finalist();
   std::optional<Candidate> best_of(Candidates::const_iterator begin,
                                    Candidates::const_iterator end) const;
