@@ -23,6 +23,7 @@ constexpr Eigen::Index kSample = 1000;   // points of a model
 constexpr float kSteep = 0.5F;           // sine to the plane, of what goes into it
 constexpr float kBeside = 3;   // x depth; so far beside the model the ground is looked for
 constexpr float kSeen = 0.2F;  // of these places, at least
+constexpr float kGone = 0.2F;  // of what is in it, beyond which the sensor saw through
 
 /// The points of the scan on a plane.
 std::vector<std::size_t> points_on(const Plane& plane, const Cloud& scan,
@@ -90,15 +91,31 @@ double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene
   if (heights.minCoeff() >= -depth_ || heights.maxCoeff() <= depth_) return 0;
   const Eigen::Index stride = model.cloud.points.rows() / kSample + 1;
   double inside = 0, all = 0;
-  for (Eigen::Index i = 0; i < model.cloud.points.rows(); i += stride, ++all)
-    inside += up.dot(model.cloud.points.row(i)) + height < -depth_;
+  Sights in_it;
+  for (Eigen::Index i = 0; i < model.cloud.points.rows(); i += stride, ++all) {
+    if (up.dot(model.cloud.points.row(i)) + height >= -depth_) continue;
+    ++inside;
+    look(T * model.cloud.points.row(i).transpose(), view, in_it);
+  }
+  if (in_it.gone > kGone * (in_it.gone + in_it.seen)) return 0;
   return inside > 0 && is_seen_around(plane, model.cloud, T, view) ? inside / all : 0;
+}
+
+void Ground::look(const Eigen::Vector3f& place, const geometry::RangeView& view,
+                  Sights& sights) const {
+  const float measured = view.measured_range(place);
+  if (measured == 0) return;
+  const Eigen::Vector3f ray = (place - viewpoint_).normalized();
+  const float height = extent_->plane.signedDistance(viewpoint_ + measured * ray);
+  sights.seen += std::abs(height) <= depth_;
+  sights.gone += height < -depth_;
 }
 
 bool Ground::is_seen_around(const Plane& plane, const Cloud& model,
                             const Eigen::Isometry3f& T_scene_model,
                             const geometry::RangeView& view) const {
-  float places = 0, seen = 0, gone = 0;
+  float places = 0;
+  Sights beside;
   const Eigen::Index stride = model.points.rows() / kSample + 1;
   for (Eigen::Index i = 0; i < model.points.rows(); i += stride) {
     const auto [point, normal] = geometry::posed_point(model, i, T_scene_model);
@@ -106,15 +123,9 @@ bool Ground::is_seen_around(const Plane& plane, const Cloud& model,
     const Eigen::Vector3f side = normal - normal.dot(plane.normal()) * plane.normal();
     if (side.norm() < kSteep) continue;
     ++places;
-    const Eigen::Vector3f beside = plane.projection(point) + kBeside * depth_ * side.normalized();
-    const float measured = view.measured_range(beside);
-    if (measured == 0) continue;
-    const Eigen::Vector3f ray = beside - viewpoint_;
-    const float height = plane.signedDistance(viewpoint_ + measured * ray.normalized());
-    seen += std::abs(height) <= depth_;
-    gone += height < -depth_;
+    look(plane.projection(point) + kBeside * depth_ * side.normalized(), view, beside);
   }
-  return seen > gone && seen >= kSeen * places;
+  return beside.seen > beside.gone && beside.seen >= kSeen * places;
 }
 
 }  // namespace posevote::poses

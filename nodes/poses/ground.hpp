@@ -20,8 +20,9 @@ class Ground {
   Ground(const Cloud& scan, float depth);
 
   /// The share of the posed model's points that lie in the ground; of some 1000, evenly chosen. 0
-  /// where the ground is not seen beside where the model would go into it: in the recesses of
-  /// trays, beyond edges, behind other things. Nor is there ground for what may be the plane itself:
+  /// where the ground is not seen beside where the model would go into it (in the recesses of
+  /// trays, beyond edges, behind other things), or the sensor saw deeper where the model would be (a
+  /// plane that happens to lie on many things). Nor is there ground for what may be the plane itself:
   /// what does not rise above it (in a bin full of cartons their lids are the largest plane), or is
   /// as large as it (a scan whose background is cut away shows the object's own faces alone).
   double share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
@@ -34,6 +35,12 @@ class Ground {
   };
 
  private:
+  /// Lines of sight on which the ground was seen, or something deeper.
+  struct Sights {
+    float seen = 0, gone = 0;
+  };
+  /// Along that to a place.
+  void look(const Eigen::Vector3f& place, const geometry::RangeView& view, Sights& sights) const;
   bool is_seen_around(const Plane& plane, const Cloud& model,
                       const Eigen::Isometry3f& T_scene_model,
                       const geometry::RangeView& view) const;

@@ -91,6 +91,21 @@ TEST_CASE("a plane no larger than what may be seen of the object is no ground", 
   CHECK(share(table(0.18F), 0, 1) == 0);
 }
 
+TEST_CASE("a plane below which the sensor sees where the object would be is no ground", "[poses]") {
+  const auto around_pit = [](float pit) {
+    std::vector<Eigen::RowVector3f> points, normals;
+    const float border = (0.4F - pit) / 2, middle = (pit + border) / 2;
+    for (const float side : {-middle, middle}) {
+      test::add_rectangle(points, normals, {side, 0, 1}, {0, 0.4F, 0}, {border, 0, 0}, kSpacing);
+      test::add_rectangle(points, normals, {0, side, 1}, {0, border, 0}, {pit, 0, 0}, kSpacing);
+    }
+    test::add_rectangle(points, normals, {0, 0, 1.1F}, {0, pit, 0}, {pit, 0, 0}, kSpacing);
+    return geometry::cloud_of(points, normals);
+  };
+  CHECK(share(around_pit(0.02F), 0, 1) > 0.4);
+  CHECK(share(around_pit(0.09F), 0, 1) == 0);
+}
+
 TEST_CASE("where nothing is flat there is no ground", "[poses]") {
   Cloud scan = table();
   for (Eigen::Index i = 0; i < scan.points.rows(); ++i) {
