@@ -64,4 +64,31 @@ TEST_CASE("of what was not found among many places no more are asked for", "[pos
   CHECK(asks_again(beside(0.4), 1));  // the paper's: the densest mode may be a false one
 }
 
+TEST_CASE("near a point a search looks at what is proposed there, and may be told to prefer it",
+          "[poses]") {
+  SoughtBody body({kBody});
+  body.params.max_instances = 2;
+  const std::vector<Hypothesis> proposals{body.hypothesis(beside(0.4), 1000),
+                                          body.hypothesis(beside(0.002), 10)};
+  ObjectSearch search(body.sought(),
+                      {[&] { return proposals; }, [](const Hypothesis& one) { return one; }});
+  const auto look = [&](double metres) {
+    return search.look_near(posed_center(beside(metres), body.model.center), 0.05);
+  };
+  CHECK(look(0.4).empty());  // nothing is there
+  const Candidates there = look(0);
+  REQUIRE(there.size() == 1);
+  CHECK(there[0].confidence > 0.5);
+  CHECK(distance_to_body(there[0].T_scene_model) < 1e-3);
+  CHECK(there[0].elsewhere == 1000);  // the lead is over all that was proposed
+  CHECK_FALSE(search.best());
+  REQUIRE(search.prefer(there[0]));
+  CHECK(search.is_current());
+  REQUIRE(search.best());
+  CHECK(search.best()->covariance);
+  search.accept();
+  CHECK(look(0).empty());  // its place is closed
+  CHECK_FALSE(search.prefer(there[0]));
+}
+
 }  // namespace posevote::object_search_test
