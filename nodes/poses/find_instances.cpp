@@ -65,17 +65,16 @@ ObjectSearch* ahead_of(ObjectSearch* best, const Searches& searches, const ScanS
 
 constexpr double kSure = 0.95;  // a confidence from which on nobody else is asked
 
-/// The search that has a pose where `first` has one, though not its best, and goes before it; null
-/// if none has. What was taken out since may have uncovered it.
-ObjectSearch* ahead_there(const ObjectSearch& first, const Searches& searches,
-                          const ScanState& scan) {
-  const Claim claim = claim_of(first);
-  if (claim.candidate.confidence >= kSure) return nullptr;
+/// The one that has a pose where `best` has its own, though not its best, and goes before it, or
+/// that. What was taken out since may have uncovered it.
+ObjectSearch* ahead_there(ObjectSearch* best, const Searches& searches, const ScanState& scan) {
+  const Claim claim = claim_of(*best);
+  if (claim.candidate.confidence >= kSure) return best;
   const Eigen::Vector3d center = posed_center(claim.candidate.T_scene_model, claim.model.center);
   std::vector<Candidates> others(searches.size());
   graph::parallel_for(searches.size(), 1, [&](std::size_t i) {
     const float smaller = std::min(searches[i]->model().diagonal, claim.model.diagonal);
-    if (searches[i] != &first)
+    if (searches[i] != best)
       others[i] = searches[i]->look_near(center, static_cast<double>(smaller / 2));
   });
   double most = 0;
@@ -84,13 +83,13 @@ ObjectSearch* ahead_there(const ObjectSearch& first, const Searches& searches,
   for (std::size_t i = 0; i < searches.size(); ++i)
     for (const Candidate& other : others[i]) {
       const double odds =
-          log_odds_over(claim_of(*searches[i], other), claim, scan, first.terms()).value_or(0);
+          log_odds_over(claim_of(*searches[i], other), claim, scan, best->terms()).value_or(0);
       if (odds <= most) continue;
       most = odds;
       ahead = searches[i];
       pose = &other;
     }
-  return ahead && ahead->prefer(*pose) ? ahead : nullptr;
+  return ahead && ahead->prefer(*pose) ? ahead : best;
 }
 
 /// The probability that what `chosen` has is this object, if it is one of those that claim the
@@ -111,10 +110,7 @@ ObjectSearch* best_of(const Searches& searches, const ScanState& scan) {
     ObjectSearch* best = most_confident(searches);
     if (best && best->is_current()) best = ahead_of(best, searches, scan);
     if (!best) return nullptr;
-    if (best->is_current()) {
-      ObjectSearch* other = ahead_there(*best, searches, scan);
-      return other ? other : best;
-    }
+    if (best->is_current()) return ahead_there(best, searches, scan);
     best->choose();
   }
 }

@@ -210,11 +210,10 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
   std::vector<Judged> judged;
   judged.reserve(points.size());
   for (const std::uint32_t i : points) {
-    const geometry::OrientedPoint p = geometry::posed_point(model, i, T);
-    const Judged one = judge(p, sensed);
-    if (one.verdict != Verdict::kSupported && scan.facing_cosine(p) < kGrazing) continue;
+    Judged one = judge(geometry::posed_point(model, i, T), sensed);
+    if (one.verdict != Verdict::kSupported && one.apparent < kGrazing) continue;
+    one.apparent = 1;  // all alike, so that their number tells how sure the balance is
     judged.push_back(one);
-    judged.back().apparent = 1;  // all alike, so that their number tells how sure the balance is
   }
   const Fit fit = count(judged);
   return {fit.apparent.supported - fit.apparent.against(terms), fit.facing - fit.hidden};

@@ -106,8 +106,9 @@ bool ObjectSearch::settle(Candidate& chosen) const {
   return true;
 }
 
-Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance) const {
+Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance) {
   if (is_full()) return {};
+  const Stopwatch watch(seconds_);
   std::vector<Hypothesis> all = proposals_.propose(), there;
   std::erase_if(all, [this](const Hypothesis& one) { return !taken_.is_clear(one.center); });
   std::ranges::copy_if(all, std::back_inserter(there), [&](const Hypothesis& one) {
@@ -121,7 +122,6 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   sift(near, pool, proposals_.improve);
   bring_finalists_forward(near, pool);
   std::erase_if(pool, [&](const Candidate& one) { return !may_win(near, one); });
-  if (pool.empty()) return {};
   pool.erase(refine_best(near, pool), pool.end());
   std::erase_if(pool, [&](const Candidate& one) {
     return one.confidence < near.params.min_confidence || !taken_.is_clear(near, one.T_scene_model);
@@ -130,8 +130,10 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
 }
 
 bool ObjectSearch::prefer(Candidate other) {
-  const Stopwatch watch(seconds_);
-  if (!settle(other)) return false;
+  {
+    const Stopwatch watch(seconds_);
+    if (!settle(other)) return false;
+  }
   best_ = std::move(other);
   best_->seconds = seconds_;
   chosen_at_ = sought_.scan.takes;

@@ -51,7 +51,7 @@ class ObjectSearch {
   void choose();
   /// Poses that would be detections of the scan as it is now, proposed with their centres within
   /// `distance` of a point [m] and refined. `best` stays what it is.
-  Candidates look_near(const Eigen::Vector3d& point, double distance) const;
+  Candidates look_near(const Eigen::Vector3d& point, double distance);
   /// Makes one of them `best`, unless it convinces no more when it is exact.
   bool prefer(Candidate other);
   /// Makes `best` an instance, whose neighbourhood is closed to others of this object. To be called
