@@ -36,8 +36,8 @@ void show(const Sought& sought, const char* step, const Candidates& candidates) 
 }
 
 /// From what was collected to the order in which they may be finalists.
-void sift(const Sought& sought, Candidates& pool, const Improve& improve) {
-  make_shortlist(sought, pool);
+void sift(const Sought& sought, Candidates& pool, const Improve& improve, int places) {
+  make_shortlist(sought, pool, places);
   show(sought, "glance", pool);
   sketch(sought, pool, improve);
   show(sought, "sketch", pool);
@@ -54,17 +54,20 @@ ObjectSearch::ObjectSearch(const Sought& sought, Proposals proposals)
 
 bool ObjectSearch::may_propose() const {
   if (is_full() || proposed_at_ == sought_.scan.takes) return false;
-  const bool took_few =
-      sought_.params.candidates <= static_cast<std::size_t>(sought_.terms.schedule.shortlist);
-  return proposed_at_ < 0 || accepted_ > 0 || took_few;
+  return !convinced_nobody() || sought_.terms.schedule.shortlist_again > 0;
 }
 
+bool ObjectSearch::convinced_nobody() const { return proposed_at_ >= 0 && accepted_ == 0; }
+
 void ObjectSearch::propose() {
+  const ScheduleTerms& terms = sought_.terms.schedule;
+  const bool again = convinced_nobody();
   {
     const Stopwatch watch(seconds_);
     pool_ = collect(sought_, proposals_.propose(), taken_);
     show(sought_, "propose", pool_);
-    sift(sought_, pool_, proposals_.improve);
+    sift(sought_, pool_, proposals_.improve, again ? terms.shortlist_again : terms.shortlist);
+    if (again) std::erase_if(pool_, [&](const Candidate& one) { return !may_win(sought_, one); });
   }
   proposed_at_ = sought_.scan.takes;
   choose();
@@ -119,7 +122,7 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   Candidates pool = collect(near, std::move(there), taken_);
   for (Candidate& one : pool)
     one.elsewhere = support_elsewhere(all, one.proposed.center, near.model);
-  sift(near, pool, proposals_.improve);
+  sift(near, pool, proposals_.improve, near.terms.schedule.shortlist);
   bring_finalists_forward(near, pool);
   std::erase_if(pool, [&](const Candidate& one) { return !may_win(near, one); });
   pool.erase(refine_best(near, pool), pool.end());

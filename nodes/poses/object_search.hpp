@@ -41,8 +41,7 @@ class ObjectSearch {
   bool is_current() const { return chosen_at_ == sought_.scan.takes; }
   /// Whether all instances that may be are found.
   bool is_full() const { return accepted_ == sought_.params.max_instances; }
-  /// Whether other poses may be proposed for the scan as it is now. Where nothing was found among more
-  /// places than a shortlist holds, nothing is among those that others uncovered.
+  /// Whether other poses may be proposed for the scan as it is now.
   bool may_propose() const;
 
   /// Has poses proposed for the scan as it is now, and chooses.
@@ -61,6 +60,8 @@ class ObjectSearch {
   void accept(const Candidate& known);
 
  private:
+  /// What others uncovered of such an object is sought among few.
+  bool convinced_nobody() const;
   void choose_best();
   bool settle(Candidate& chosen) const;
   std::optional<Candidate> best_finalist();

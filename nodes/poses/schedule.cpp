@@ -19,16 +19,15 @@ void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::
   sort_by_rank(pool.begin(), pool.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-void make_shortlist(const Sought& sought, Candidates& pool) {
-  const auto places = static_cast<std::size_t>(sought.terms.schedule.shortlist);
-  if (pool.size() <= places) return;
+void make_shortlist(const Sought& sought, Candidates& pool, int places) {
+  if (pool.size() <= static_cast<std::size_t>(places)) return;
   const Closeness glance{{sought.terms.schedule.glance_points}, sought.terms.schedule.glance_reach};
   graph::parallel_for(pool.size(), 1, [&](std::size_t i) {
     pool[i].fit = measure(sought, pool[i].T_scene_model, glance);
     grade_at_a_glance(sought, pool[i]);
   });
   sort_by_rank(pool.begin(), pool.end());
-  pool.resize(places);
+  pool.resize(static_cast<std::size_t>(places));
 }
 
 void sketch(const Sought& sought, Candidates& pool, const Improve& improve) {

@@ -4,13 +4,14 @@
 //   step             how many                    judged by
 //   glance           all that were collected     50 model points, with twice the tolerance, as
 //                                                proposals lie off by part of a bandwidth
-//   sketch           the shortlist, 160          300, after their proposer improved them
+//   sketch           the shortlist, 160 (10)     300, after their proposer improved them
 //   bring closer     the promising, 40           300, after the first steps of ICP
 //   look             those that may be finalists 1000
 //   refine           the finalists, 4, and twins 4000, after ICP
 //   polish           the one that is chosen      all points, after ICP by ten thousand
 //
-// The numbers are ScheduleTerms and RefinementTerms.
+// In brackets: of an object that convinced nobody when more was in the scan. The numbers are
+// ScheduleTerms and RefinementTerms.
 #pragma once
 
 #include <functional>
@@ -28,8 +29,8 @@ using Improve = std::function<Hypothesis(const Hypothesis&)>;
 void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::size_t end,
                 const Closeness& look);
 
-/// Keeps as many as the shortlist has places, by a glance if there are more.
-void make_shortlist(const Sought& sought, Candidates& pool);
+/// Keeps as many as there are `places`, by a glance if there are more.
+void make_shortlist(const Sought& sought, Candidates& pool, int places);
 
 /// Improves them all, and judges and sorts them by a sketch.
 void sketch(const Sought& sought, Candidates& pool, const Improve& improve);

@@ -18,6 +18,10 @@ void add_schedule(Node& node) {
        "Improved and sketched. As many as keep the true pose of a thing hardly seen; time grows "
        "with it, by a neighbourhood query each.",
        in_range(1, 10000));
+  term("shortlist_again", &G::shortlist_again, "poses",
+       "Likewise, of an object that convinced nobody when more was in the scan. 0: it is not asked "
+       "again.",
+       in_range(0, 10000));
   term("promising", &G::promising, "poses", "Brought closer by coarse ICP. Time grows with it.",
        in_range(0, 10000));
   term("finalists", &G::finalists, "poses",

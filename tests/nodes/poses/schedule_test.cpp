@@ -23,16 +23,15 @@ poses::Candidates far_to_near(const SoughtBody& body, int count) {
 }  // namespace
 
 TEST_CASE("the shortlist keeps the best, by a glance", "[poses]") {
-  SoughtBody body({kBody});
-  body.params.terms.schedule.shortlist = 3;
+  const SoughtBody body({kBody});
   poses::Candidates pool = far_to_near(body, 12);
-  poses::make_shortlist(body.sought(), pool);
+  poses::make_shortlist(body.sought(), pool, 3);
   REQUIRE(pool.size() == 3);
   CHECK(distance_to_body(pool[0].T_scene_model) < 0.005);
   CHECK(pool[0].fit.facing < 60);
   CHECK(pool[0].fit.facing > 10);
   poses::Candidates few{body.candidate(beside(0.1)), body.candidate(beside(0))};
-  poses::make_shortlist(body.sought(), few);  // there is room for all: nobody looks
+  poses::make_shortlist(body.sought(), few, 3);  // there is room for all: nobody looks
   CHECK(few[0].fit.facing == 0);
 }
 
