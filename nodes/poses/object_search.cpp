@@ -31,6 +31,9 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// For each place of the shortlist, where it is short.
+constexpr std::size_t kGlances = 50;
+
 void show(const Sought& sought, const char* step, const Candidates& candidates) {
   if (sought.watch) sought.watch(step, candidates);
 }
@@ -62,9 +65,11 @@ bool ObjectSearch::convinced_nobody() const { return proposed_at_ >= 0 && accept
 void ObjectSearch::propose() {
   const ScheduleTerms& terms = sought_.terms.schedule;
   const bool again = convinced_nobody();
+  std::size_t most = sought_.params.candidates;
+  if (again) most = std::min(most, kGlances * static_cast<std::size_t>(terms.shortlist_again));
   {
     const Stopwatch watch(seconds_);
-    pool_ = collect(sought_, proposals_.propose(), taken_);
+    pool_ = collect(sought_, proposals_.propose(), taken_, most);
     show(sought_, "propose", pool_);
     sift(sought_, pool_, proposals_.improve, again ? terms.shortlist_again : terms.shortlist);
     if (again) std::erase_if(pool_, [&](const Candidate& one) { return !may_win(sought_, one); });
@@ -119,7 +124,7 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   });
   Sought near = sought_;  // for support is compared among these
   near.watch = {};
-  Candidates pool = collect(near, std::move(there), taken_);
+  Candidates pool = collect(near, std::move(there), taken_, near.params.candidates);
   for (Candidate& one : pool)
     one.elsewhere = support_elsewhere(all, one.proposed.center, near.model);
   sift(near, pool, proposals_.improve, near.terms.schedule.shortlist);

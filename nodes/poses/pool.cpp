@@ -53,12 +53,12 @@ bool TakenPlaces::is_clear(const Sought& sought, const Eigen::Isometry3d& T_scen
          sought.scan.share_inside(sought.model, T_scene_model) <= sought.params.overlap;
 }
 
-Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken) {
+Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken,
+                   std::size_t most) {
   std::erase_if(proposals, [&](const Hypothesis& one) { return !taken.is_clear(one.center); });
   Candidates pool;
   sought.most_support = kSomeSupport;
-  for (const std::size_t i :
-       separate_poses(proposals, proposed_separation(sought), sought.params.candidates)) {
+  for (const std::size_t i : separate_poses(proposals, proposed_separation(sought), most)) {
     Candidate& candidate = pool.emplace_back();
     propose_as(sought, proposals[i], candidate);
     candidate.elsewhere = support_elsewhere(proposals, proposals[i].center, sought.model);

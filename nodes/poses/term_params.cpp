@@ -15,20 +15,16 @@ void add_schedule(Node& node) {
   using G = ScheduleTerms;
   const Register<G> term{node, &Terms::schedule};
   term("shortlist", &G::shortlist, "poses",
-       "Improved and sketched. As many as keep the true pose of a thing hardly seen; time grows "
-       "with it, by a neighbourhood query each.",
+       "Improved and sketched. As many as keep the true pose of a thing hardly seen.",
        in_range(1, 10000));
   term("shortlist_again", &G::shortlist_again, "poses",
-       "Likewise, of an object that convinced nobody when more was in the scan. 0: it is not asked "
-       "again.",
-       in_range(0, 10000));
+       "Of what convinced nobody when more was in the scan. 0: none.", in_range(0, 10000));
   term("promising", &G::promising, "poses", "Brought closer by coarse ICP. Time grows with it.",
        in_range(0, 10000));
   term("finalists", &G::finalists, "poses",
        "Refined by ICP. Of more than four hardly any wins; time grows with it.", in_range(1, 1000));
   term("glance_points", &G::glance_points, "points",
-       "Model points that judge a proposal as it came. Fewer are quicker, "
-       "and lose true poses.",
+       "Model points that judge a proposal as it came. Fewer lose true poses.",
        in_range(1, 1000000));
   term(
       "glance_reach", &G::glance_reach, "x inlier_distance",
