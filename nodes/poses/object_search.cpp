@@ -31,7 +31,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// For each place of the shortlist, where it is short.
+/// For each place of the shortlist of what convinced nobody before.
 constexpr std::size_t kGlances = 50;
 
 void show(const Sought& sought, const char* step, const Candidates& candidates) {
@@ -72,6 +72,7 @@ void ObjectSearch::propose() {
     pool_ = collect(sought_, proposals_.propose(), taken_, most);
     show(sought_, "propose", pool_);
     sift(sought_, pool_, proposals_.improve, again ? terms.shortlist_again : terms.shortlist);
+    // It was told already why nobody convinced.
     if (again) std::erase_if(pool_, [&](const Candidate& one) { return !may_win(sought_, one); });
   }
   proposed_at_ = sought_.scan.takes;

@@ -60,7 +60,7 @@ class ObjectSearch {
   void accept(const Candidate& known);
 
  private:
-  /// What others uncovered of such an object is sought among few.
+  /// Whether nothing was found of what was proposed; what others uncovered is sought among few.
   bool convinced_nobody() const;
   void choose_best();
   bool settle(Candidate& chosen) const;

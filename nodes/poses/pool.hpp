@@ -36,7 +36,7 @@ double support_elsewhere(const std::vector<Hypothesis>& proposals, const Eigen::
                          const Model& model);
 
 /// Candidates of those proposals, the best supported first, whose place is clear and that are
-/// separate from better ones, so many at `most`; sets most_support.
+/// separate from better ones, `most` of them at most; sets most_support.
 Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken,
                    std::size_t most);
 

@@ -29,4 +29,7 @@ struct Register {
 /// Those of colours (color_params.cpp).
 void add_color_terms(Node& node);
 
+/// How many poses get how much attention (schedule_params.cpp).
+void add_schedule_terms(Node& node);
+
 }  // namespace posevote::poses
