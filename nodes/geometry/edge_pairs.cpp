@@ -7,6 +7,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/outline.hpp"
+#include "nodes/geometry/strewn.hpp"
 
 namespace posevote::geometry {
 namespace {
@@ -17,7 +18,11 @@ constexpr float kRim = 3;            // the end of a face is at most so far from
 constexpr float kLookBeyond = 2.5F;  // an end, for what is there
 constexpr float kLeastDrop = 2;      // behind an end
 
-constexpr std::size_t kTried = 4;  // places, for each end that is wanted: few are at a rim
+constexpr int kTried = 4;  // places, for each end that is wanted: few are at a rim
+
+std::vector<Eigen::Index> strewn(std::size_t count, int wanted) {
+  return Strewn(static_cast<Eigen::Index>(count), wanted).numbers();
+}
 
 /// How far a face goes on from `from`, in steps; nothing where it does up to `most`.
 template <class GoesOn>
@@ -40,13 +45,12 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const SurfaceIndex& inde
       const Eigen::Vector3f from = model.points.row(i).transpose();
       ahead.push_back({i, from, (place - from) / outline.reach});
     });
-  const auto wanted = static_cast<std::size_t>(most);
-  const std::size_t stride = ahead.size() / (kTried * wanted) + 1;
   const auto agree = [](float cosine) {
     return cosine >= static_cast<float>(SurfaceTerms{}.least_normal_cosine);
   };
   std::vector<FaceEnd> all;
-  for (std::size_t k = 0; k < ahead.size(); k += stride) all.push_back(ahead[k]);
+  for (const Eigen::Index k : strewn(ahead.size(), kTried * most))
+    all.push_back(ahead[static_cast<std::size_t>(k)]);
   std::vector<std::optional<float>> lengths(all.size());
   // All sides of a model are there. Beyond the edge of a face the nearest point is soon one of the
   // face around the corner, where the scan, which seldom shows both, goes on for a spacing: any
@@ -66,7 +70,8 @@ std::vector<FaceEnd> find_face_ends(const Cloud& model, const SurfaceIndex& inde
     all[kept++].place += *lengths[k] * all[k].direction;
   }
   all.resize(kept);
-  for (std::size_t k = 0; k < all.size(); k += all.size() / wanted + 1) ends.push_back(all[k]);
+  for (const Eigen::Index k : strewn(all.size(), most))
+    ends.push_back(all[static_cast<std::size_t>(k)]);
   return ends;
 }
 

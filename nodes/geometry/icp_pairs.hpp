@@ -9,6 +9,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/data/cloud.hpp"
 #include "nodes/geometry/scan_surface.hpp"
+#include "nodes/geometry/strewn.hpp"
 
 namespace posevote::geometry {
 
@@ -28,15 +29,14 @@ double biweight(Number inside) {
 }
 
 /// What find(point) makes of about `most` points of a posed model, those of no weight left out; safe
-/// to call from many threads. Points with a fixed stride: voxel order runs through space, so that is
-/// even.
+/// to call from many threads.
 template <class Find>
 std::vector<IcpPair> strewn_pairs(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
                                   Eigen::Index most, const Find& find) {
-  const Eigen::Index stride = model.points.rows() / most + 1;
-  std::vector<IcpPair> pairs(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
+  const Strewn rows(model.points.rows(), most);
+  std::vector<IcpPair> pairs(rows.size());
   graph::parallel_for(pairs.size(), 256, [&](std::size_t i) {
-    const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
+    const Eigen::Index row = rows[i];
     pairs[i] = find(posed_point(model, row, T_scene_model));
     pairs[i].row = row;
   });

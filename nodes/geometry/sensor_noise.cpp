@@ -10,16 +10,17 @@
 #include "graph/parallel.hpp"
 #include "nodes/geometry/point_spacing.hpp"
 #include "nodes/geometry/spread.hpp"
+#include "nodes/geometry/strewn.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
 namespace {
 
-constexpr float kWidth = 6;             // x spacing, at least
-constexpr float kThin = 0.08F;          // x width: a patch no thicker than that has a plane
-constexpr int kMostDoublings = 4;       // of the width
-constexpr std::size_t kFewest = 12;     // points in a patch
-constexpr std::size_t kPatches = 4000;  // enough for a median
+constexpr float kWidth = 6;              // x spacing, at least
+constexpr float kThin = 0.08F;           // x width: a patch no thicker than that has a plane
+constexpr int kMostDoublings = 4;        // of the width
+constexpr std::size_t kFewest = 12;      // points in a patch
+constexpr Eigen::Index kPatches = 4000;  // enough for a median
 
 std::optional<Patch> measure(const PointMatrix& points, std::span<const std::uint32_t> members,
                              const Eigen::Vector3f& viewpoint) {
@@ -48,10 +49,10 @@ float median(std::vector<float> values) {
 SensorNoise measure_patches(const PointMatrix& points, const Eigen::Vector3f& viewpoint,
                             float width) {
   const Voxels voxels = group_by_voxel(points, width);
-  const std::size_t step = voxels.size() / kPatches + 1;
-  std::vector<std::optional<Patch>> patches((voxels.size() + step - 1) / step);
+  const Strewn some(static_cast<Eigen::Index>(voxels.size()), kPatches);
+  std::vector<std::optional<Patch>> patches(some.size());
   graph::parallel_for(patches.size(), 64, [&](std::size_t i) {
-    patches[i] = measure(points, voxels[i * step], viewpoint);
+    patches[i] = measure(points, voxels[static_cast<std::size_t>(some[i])], viewpoint);
   });
   SensorNoise found;
   std::vector<float> noises, spacings;

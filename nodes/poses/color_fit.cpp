@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nodes/color/srgb.hpp"
+#include "nodes/geometry/strewn.hpp"
 #include "nodes/poses/sought.hpp"
 
 namespace posevote::poses {
@@ -43,9 +44,10 @@ std::vector<Patch> pairs_of(const Sought& sought, const Eigen::Isometry3d& T_sce
   const Cloud& model = sought.model.cloud;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const float edge = static_cast<float>(sought.terms.color.patch) * sought.model.diagonal;
-  const Eigen::Index stride = model.points.rows() / points + 1;
+  const geometry::Strewn rows(model.points.rows(), points);
   std::vector<Patch> pairs;
-  for (Eigen::Index i = 0; i < model.points.rows(); i += stride) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Eigen::Index i = rows[k];
     const geometry::OrientedPoint p = geometry::posed_point(model, i, T);
     if (!sought.scan.surface.faces_sensor(p)) continue;
     const auto row = sought.scan.surface.compatible_row(p, sought.params.tolerance);

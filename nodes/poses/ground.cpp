@@ -9,6 +9,7 @@
 #include "nodes/geometry/plane_fit.hpp"
 #include "nodes/geometry/scan_surface.hpp"
 #include "nodes/geometry/spread.hpp"
+#include "nodes/geometry/strewn.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -89,16 +90,19 @@ double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene
   const float height = plane.signedDistance(T.translation());
   const Eigen::RowVectorXf heights = (up * model.outline.hull).array() + height;
   if (heights.minCoeff() >= -depth_ || heights.maxCoeff() <= depth_) return 0;
-  const Eigen::Index stride = model.cloud.points.rows() / kSample + 1;
-  double inside = 0, all = 0;
+  const geometry::Strewn rows(model.cloud.points.rows(), kSample);
+  double inside = 0;
   Sights in_it;
-  for (Eigen::Index i = 0; i < model.cloud.points.rows(); i += stride, ++all) {
-    if (up.dot(model.cloud.points.row(i)) + height >= -depth_) continue;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Eigen::Vector3f point = model.cloud.points.row(rows[k]).transpose();
+    if (up.dot(point) + height >= -depth_) continue;
     ++inside;
-    look(T * model.cloud.points.row(i).transpose(), view, in_it);
+    look(T * point, view, in_it);
   }
   if (in_it.gone > kGone * (in_it.gone + in_it.seen)) return 0;
-  return inside > 0 && is_seen_around(plane, model.cloud, T, view) ? inside / all : 0;
+  return inside > 0 && is_seen_around(plane, model.cloud, T, view)
+             ? inside / static_cast<double>(rows.size())
+             : 0;
 }
 
 void Ground::look(const Eigen::Vector3f& place, const geometry::RangeView& view,
@@ -116,9 +120,9 @@ bool Ground::is_seen_around(const Plane& plane, const Cloud& model,
                             const geometry::RangeView& view) const {
   float places = 0;
   Sights beside;
-  const Eigen::Index stride = model.points.rows() / kSample + 1;
-  for (Eigen::Index i = 0; i < model.points.rows(); i += stride) {
-    const auto [point, normal] = geometry::posed_point(model, i, T_scene_model);
+  const geometry::Strewn rows(model.points.rows(), kSample);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto [point, normal] = geometry::posed_point(model, rows[k], T_scene_model);
     if (plane.absDistance(point) > depth_) continue;
     const Eigen::Vector3f side = normal - normal.dot(plane.normal()) * plane.normal();
     if (side.norm() < kSteep) continue;

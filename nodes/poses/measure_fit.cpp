@@ -8,6 +8,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/spread.hpp"
+#include "nodes/geometry/strewn.hpp"
 #include "nodes/poses/patches.hpp"
 
 namespace posevote::poses {
@@ -135,14 +136,13 @@ Fit count(const std::vector<Judged>& points) {
 constexpr float kPatch = 0.1F;
 
 double systematic_residual(const std::vector<Judged>& points, const Cloud& model,
-                           Eigen::Index stride, std::size_t supported) {
+                           const geometry::Strewn& rows, std::size_t supported) {
   Eigen::Matrix3Xf places(3, static_cast<Eigen::Index>(supported));
   Eigen::VectorXd residuals(places.cols());
   Eigen::Index known = 0;
   Eigen::AlignedBox3f box;  // of the model
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f place =
-        model.points.row(static_cast<Eigen::Index>(i) * stride).transpose();
+    const Eigen::Vector3f place = model.points.row(rows[i]).transpose();
     box.extend(place);
     if (points[i].verdict != Verdict::kSupported) continue;
     places.col(known) = place;
@@ -169,22 +169,20 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
                 float tolerance, const Sampling& sampling, const FitTerms& terms) {
   const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const Eigen::Index stride = sampling.points > 0 ? model.points.rows() / sampling.points + 1 : 1;
-  std::vector<Judged> points(static_cast<std::size_t>((model.points.rows() + stride - 1) / stride));
-  const auto posed = [&](std::size_t i) {
-    return geometry::posed_point(model, static_cast<Eigen::Index>(i) * stride, T);
-  };
+  const geometry::Strewn rows(model.points.rows(), sampling.points);
+  std::vector<Judged> points(rows.size());
+  const auto posed = [&](std::size_t i) { return geometry::posed_point(model, rows[i], T); };
   graph::parallel_for(points.size(), 512,
                       [&](std::size_t i) { points[i] = judge(posed(i), sensed); });
   Fit fit = count(points);
-  fit.stands_for = static_cast<double>(stride);
-  if (sampling.closely) fit.systematic = systematic_residual(points, model, stride, fit.supported);
+  fit.stands_for = static_cast<double>(rows.stride());
+  if (sampling.closely) fit.systematic = systematic_residual(points, model, rows, fit.supported);
   const float height = static_cast<float>(terms.same_height * fit.rmse) + kSomeHeight * tolerance;
   const Stander stander{outline, T.inverse()};
   std::vector<Beside> beside(points.size());
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
     if (points[i].verdict != Verdict::kSupported) return;
-    const Eigen::Index row = static_cast<Eigen::Index>(i) * stride;
+    const Eigen::Index row = rows[i];
     const Eigen::Vector3f normal = posed(i).normal;
     geometry::for_each_end(model, outline, row, [&](const Eigen::Vector3f& end) {
       count_end(look_at_end({T * end, normal}, sensed, stander, height), beside[i].ends,

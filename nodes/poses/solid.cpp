@@ -6,6 +6,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/box_around.hpp"
+#include "nodes/geometry/strewn.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -27,12 +28,11 @@ Solid::Solid(const Cloud& model, const Eigen::Isometry3d& T_scene_model, float d
 
 double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_other) const {
   const Eigen::Isometry3f T = (T_model_scene_ * T_scene_other).cast<float>();
-  const Eigen::Index stride = other.points.rows() / kSample + 1;
-  std::vector<char> inside(static_cast<std::size_t>((other.points.rows() + stride - 1) / stride));
+  const geometry::Strewn rows(other.points.rows(), kSample);
+  std::vector<char> inside(rows.size());
   graph::parallel_for(inside.size(), 32, [&](std::size_t i) {
-    const auto row = static_cast<Eigen::Index>(i) * stride;
     inside[i] =
-        static_cast<char>(has_inside(T * Eigen::Vector3f(other.points.row(row).transpose())));
+        static_cast<char>(has_inside(T * Eigen::Vector3f(other.points.row(rows[i]).transpose())));
   });
   if (inside.empty()) return 0;
   const auto count = std::count(inside.begin(), inside.end(), char{1});

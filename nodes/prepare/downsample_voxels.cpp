@@ -18,8 +18,10 @@
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/data/features.hpp"
+#include "nodes/geometry/curve_order.hpp"
 #include "nodes/geometry/normals.hpp"
 #include "nodes/geometry/rows_that.hpp"
+#include "nodes/geometry/select_rows.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::prepare {
@@ -95,7 +97,9 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
     out.normals.row(row) = groups[i].normals.normalized().cast<float>();
     if (is_colored) out.colors.row(row) = (groups[i].colors / groups[i].count).cast<float>();
   });
-  return out;
+  return geometry::select_rows(
+      out, geometry::rows_along_curve(out.points,
+                                      static_cast<float>(params.leaf_size) * scale.resolution));
 }
 
 const auto registered =

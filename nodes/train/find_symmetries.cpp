@@ -25,6 +25,7 @@
 #include "nodes/geometry/icp.hpp"
 #include "nodes/geometry/rotation.hpp"
 #include "nodes/geometry/select_rows.hpp"
+#include "nodes/geometry/strewn.hpp"
 #include "nodes/train/exact_symmetries.hpp"
 
 namespace posevote::train {
@@ -59,8 +60,7 @@ Eigen::Quaterniond spiral_rotation(std::size_t i, std::size_t count) {
 }
 
 Cloud every(const Cloud& cloud, Eigen::Index count) {
-  const Eigen::Index stride = cloud.points.rows() / count + 1;
-  return geometry::select_rows(cloud, Eigen::seq(0, Eigen::last, stride));
+  return geometry::select_rows(cloud, geometry::Strewn(cloud.points.rows(), count).numbers());
 }
 
 /// Share of the sample's points of which, moved, `is_on(point)` holds.

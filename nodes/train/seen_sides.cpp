@@ -11,15 +11,16 @@
 #include "graph/parallel.hpp"
 #include "nodes/geometry/occluder.hpp"
 #include "nodes/geometry/select_rows.hpp"
+#include "nodes/geometry/strewn.hpp"
 
 namespace posevote::train {
 namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kDirections = 128;  ///< of which 64 are on a side
-constexpr std::size_t kPartSamples = 64;  ///< whose openness is looked at
-constexpr float kGrazing = 0.05F;         ///< cosine: such a ray may meet the next facet
+constexpr std::size_t kDirections = 128;   ///< of which 64 are on a side
+constexpr Eigen::Index kPartSamples = 64;  ///< whose openness is looked at
+constexpr float kGrazing = 0.05F;          ///< cosine: such a ray may meet the next facet
 
 /// Spread evenly over the sphere (a Fibonacci lattice), neighbours far apart in the list.
 std::array<Vector3f, kDirections> all_directions() {
@@ -48,13 +49,14 @@ class Judge {
 
   /// What sides a part has to the outside, by some of its samples.
   Sides sides_of(const std::vector<std::uint32_t>& part) const {
-    const std::size_t stride = part.size() / kPartSamples + 1;
+    const geometry::Strewn some(static_cast<Eigen::Index>(part.size()), kPartSamples);
     double front = 0, back = 0;
-    for (std::size_t i = 0; i < part.size(); i += stride)
+    for (const Eigen::Index k : some.numbers())
       for (const Vector3f& direction : directions_) {
-        const double cosine = normal(part[i]).dot(direction);
+        const std::uint32_t i = part[static_cast<std::size_t>(k)];
+        const double cosine = normal(i).dot(direction);
         if (std::abs(cosine) < kGrazing) continue;
-        if (occluder_.escapes(point(part[i]), direction)) (cosine > 0 ? front : back) += cosine;
+        if (occluder_.escapes(point(i), direction)) (cosine > 0 ? front : back) += cosine;
       }
     back = -back;
     if (how_.two_sided == "always") return {true, true};

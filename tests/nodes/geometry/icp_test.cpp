@@ -128,6 +128,37 @@ TEST_CASE("ICP goes all the way where little holds it", "[segment]") {
   CHECK(std::abs(end.translation().x()) < 0.0005);
 }
 
+TEST_CASE("sides whose points come in turns all hold ICP", "[segment]") {
+  // A box from the sensor's right: its front, and its left side, of which every second point is one
+  // of the right side.
+  constexpr int kEdge = 40;
+  Cloud box;
+  box.points.resize(3 * kEdge * kEdge, 3);
+  box.normals.resize(3 * kEdge * kEdge, 3);
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    const float a = static_cast<float>(i % kEdge) * kResolution;
+    const float b = static_cast<float>(i / kEdge) * kResolution;
+    constexpr float kFar = kEdge * kResolution;
+    box.points.row(2 * i) << kFar, a, b;
+    box.normals.row(2 * i) << 1, 0, 0;
+    box.points.row(2 * i + 1) << 0, a, b;
+    box.normals.row(2 * i + 1) << -1, 0, 0;
+    box.points.row(2 * kEdge * kEdge + i) << a, b, 0;
+    box.normals.row(2 * kEdge * kEdge + i) << 0, 0, -1;
+  }
+  const Eigen::Isometry3d truth(Eigen::Translation3d(0.3, 0, 0.6));
+  Cloud scan = box;
+  scan.points.rowwise() += truth.translation().transpose().cast<float>();
+  const geometry::ScanSurface surface(scan, true, kReach);
+  const Eigen::Isometry3d start = truth * pose(0.7 * kResolution, 0, 0, 0);
+  for (const int share : {2, 3, 4, 8}) {
+    geometry::IcpParams params = kParams;
+    params.samples = box.points.rows() / share + 1;
+    const Error error = error_of(geometry::icp(box, surface, start, params), truth);
+    CHECK(error.shift < 0.05 * kResolution);
+  }
+}
+
 TEST_CASE("without partners ICP returns its start", "[segment]") {
   const Placed body{1, pose(0, 0, 0.8, 0)};
   const auto model = bumpy_model(1);
