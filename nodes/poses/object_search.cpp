@@ -31,9 +31,6 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// For each place of the shortlist of what convinced nobody before.
-constexpr std::size_t kGlances = 50;
-
 void show(const Sought& sought, const char* step, const Candidates& candidates) {
   if (sought.watch) sought.watch(step, candidates);
 }
@@ -65,12 +62,10 @@ bool ObjectSearch::convinced_nobody() const { return proposed_at_ >= 0 && accept
 void ObjectSearch::propose() {
   const ScheduleTerms& terms = sought_.terms.schedule;
   const bool again = convinced_nobody();
-  std::size_t most = sought_.params.candidates;
-  if (again) most = std::min(most, kGlances * static_cast<std::size_t>(terms.shortlist_again));
   {
     const Stopwatch watch(seconds_);
-    pool_ = collect(sought_, proposals_.propose(), taken_, most);
-    show(sought_, "propose", pool_);
+    pool_ = collect(sought_, proposals_.propose(), taken_);
+    show(sought_, "peek", pool_);
     sift(sought_, pool_, proposals_.improve, again ? terms.shortlist_again : terms.shortlist);
     // It was told already why nobody convinced.
     if (again) std::erase_if(pool_, [&](const Candidate& one) { return !may_win(sought_, one); });
@@ -125,7 +120,7 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   });
   Sought near = sought_;  // for support is compared among these
   near.watch = {};
-  Candidates pool = collect(near, std::move(there), taken_, near.params.candidates);
+  Candidates pool = collect(near, std::move(there), taken_);
   for (Candidate& one : pool)
     one.elsewhere = support_elsewhere(all, one.proposed.center, near.model);
   sift(near, pool, proposals_.improve, near.terms.schedule.shortlist);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "nodes/poses/peek.hpp"
 #include "nodes/poses/score.hpp"
 #include "nodes/poses/separation.hpp"
 
@@ -53,18 +54,23 @@ bool TakenPlaces::is_clear(const Sought& sought, const Eigen::Isometry3d& T_scen
          sought.scan.share_inside(sought.model, T_scene_model) <= sought.params.overlap;
 }
 
-Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken,
-                   std::size_t most) {
+Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken) {
   std::erase_if(proposals, [&](const Hypothesis& one) { return !taken.is_clear(one.center); });
-  Candidates pool;
-  sought.most_support = kSomeSupport;
-  for (const std::size_t i : separate_poses(proposals, proposed_separation(sought), most)) {
-    Candidate& candidate = pool.emplace_back();
-    propose_as(sought, proposals[i], candidate);
-    candidate.elsewhere = support_elsewhere(proposals, proposals[i].center, sought.model);
-    sought.most_support = std::max(sought.most_support, proposals[i].support);
-  }
-  return pool;
+  const std::vector<std::size_t> separate =
+      separate_poses(proposals, proposed_separation(sought), sought.params.candidates);
+  sought.most_support =
+      separate.empty() ? kSomeSupport : std::max(kSomeSupport, proposals[separate[0]].support);
+  const auto candidates_of = [&](const std::vector<std::size_t>& some) {
+    Candidates pool;
+    for (const std::size_t i : some) {
+      Candidate& candidate = pool.emplace_back();
+      propose_as(sought, proposals[i], candidate);
+      candidate.elsewhere = support_elsewhere(proposals, proposals[i].center, sought.model);
+    }
+    return pool;
+  };
+  if (sought.watch) sought.watch("propose", candidates_of(separate));
+  return candidates_of(worth_a_glance(sought, proposals, separate));
 }
 
 void propose_as(const Sought& sought, const Hypothesis& hypothesis, Candidate& candidate) {

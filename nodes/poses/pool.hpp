@@ -36,9 +36,8 @@ double support_elsewhere(const std::vector<Hypothesis>& proposals, const Eigen::
                          const Model& model);
 
 /// Candidates of those proposals, the best supported first, whose place is clear and that are
-/// separate from better ones, `most` of them at most; sets most_support.
-Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken,
-                   std::size_t most);
+/// separate from better ones, as far as they are worth a glance (peek.hpp); sets most_support.
+Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken);
 
 /// The candidate's pose becomes that of a hypothesis.
 void propose_as(const Sought& sought, const Hypothesis& hypothesis, Candidate& candidate);

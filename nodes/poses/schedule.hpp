@@ -2,8 +2,11 @@
 // Who gets how much attention: the fewer poses are left, the more is spent on each.
 //
 //   step             how many                    judged by
-//   glance           all that were collected,    50 model points, with twice the tolerance, as
-//                    1000 (500)                  proposals lie off by part of a bandwidth
+//   peek             all that were collected,    50 model points, by the range image alone
+//                    4000
+//   glance           the best of these, 600      the same, by the nearest points of the scan, with
+//                                                twice the tolerance, as proposals lie off by part
+//                                                of a bandwidth
 //   sketch           the shortlist, 160 (10)     300, after their proposer improved them
 //   bring closer     the promising, 40           300, after the first steps of ICP
 //   look             those that may be finalists 1000

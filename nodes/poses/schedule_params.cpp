@@ -9,6 +9,10 @@ using graph::in_range;
 void add_schedule_terms(Node& node) {
   using G = ScheduleTerms;
   const Register<G> term{node, &Terms::schedule};
+  term("glances", &G::glances, "poses",
+       "Of more candidates those that the range image speaks for, by a peek, are glanced at. Time "
+       "grows with it.",
+       in_range(1, 10000));
   term("shortlist", &G::shortlist, "poses",
        "Improved and sketched. As many as keep the true pose of a thing hardly seen; time grows "
        "with it, by a neighbourhood query each.",
@@ -22,8 +26,8 @@ void add_schedule_terms(Node& node) {
   term("finalists", &G::finalists, "poses",
        "Refined by ICP. Of more than four hardly any wins; time grows with it.", in_range(1, 1000));
   term("glance_points", &G::glance_points, "points",
-       "Model points that judge a proposal as it came. Fewer are quicker, "
-       "and lose true poses.",
+       "Model points that judge a proposal as it came, by a peek and by a glance. Fewer are "
+       "quicker, and lose true poses.",
        in_range(1, 1000000));
   term(
       "glance_reach", &G::glance_reach, "x inlier_distance",

@@ -12,7 +12,7 @@ namespace posevote::poses {
 
 struct SegmentParams {
   int max_instances = 20;
-  int candidates = 1000;
+  int candidates = 4000;
   double nms = 0.1;
   double overlap = 0.1;
   double min_confidence = 0.5;

@@ -11,7 +11,7 @@
 namespace posevote::poses {
 namespace {
 
-constexpr Eigen::Index kSample = 500;
+constexpr Eigen::Index kSolidSample = 500;
 constexpr float kBack = 0.7F;  // cosine, of a surface that looks the other way
 
 }  // namespace
@@ -28,7 +28,7 @@ Solid::Solid(const Cloud& model, const Eigen::Isometry3d& T_scene_model, float d
 
 double Solid::share_inside(const Cloud& other, const Eigen::Isometry3d& T_scene_other) const {
   const Eigen::Isometry3f T = (T_model_scene_ * T_scene_other).cast<float>();
-  const geometry::Strewn rows(other.points.rows(), kSample);
+  const geometry::Strewn rows(other.points.rows(), kSolidSample);
   std::vector<char> inside(rows.size());
   graph::parallel_for(inside.size(), 32, [&](std::size_t i) {
     inside[i] =

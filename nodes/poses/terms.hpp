@@ -17,6 +17,7 @@ namespace posevote::poses {
 
 /// How many poses get how much attention (schedule.hpp).
 struct ScheduleTerms {
+  int glances = 600;
   int shortlist = 160, shortlist_again = 10, promising = 40, finalists = 4;
   int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
   double glance_reach = 2;

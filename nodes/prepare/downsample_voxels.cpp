@@ -4,8 +4,8 @@
 //
 // Where the normals of a voxel cancel (their mean is shorter than a half: both sides of a thin
 // wall), that mean would be garbage: the points are split along the normals' main axis, and each
-// side makes a point. Points without a usable normal are left out. Output in voxel order, whatever
-// the order of the input. O(n log n). Fails where points have no normals at all, or where the cloud
+// side makes a point. Points without a usable normal are left out. Output along a curve through
+// space (geometry/curve_order.hpp), whatever the order of the input. O(n log n). Fails where points have no normals at all, or where the cloud
 // is far larger than the voxels.
 //
 //   downsample_voxels: {in: [cloud, scale], out: small_cloud, leaf_size: 1}

@@ -8,7 +8,7 @@
 // are subtracted from the densities, which equals voting anew without them. The score rests on what
 // the sensor measured, free space included (poses/measure_fit.cpp), on how exactly the pose lies
 // there, as instances found before do (poses/usual_residual.hpp), and on how many of the features
-// that it explains voted for it (poses/score.hpp). Cost: per object `candidates` glances, 160
+// that it explains voted for it (poses/score.hpp). Cost: per object 4000 peeks, 600 glances, 160
 // neighbourhood queries and sketches, 40 coarse ICPs and some 10 looks, and again for what was
 // found, until it is found no more; per instance four ICPs, as many of twins, and one of ten
 // thousand points. A scan without votes gives no detections; that is no failure. Points without a

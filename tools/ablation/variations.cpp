@@ -34,6 +34,7 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"max_residual", "0"},
                                                  {"shortlist", "10000"},  // all are improved
                                                  {"shortlist_again", "0"},
+                                                 {"glances", "10000"},
                                                  {"promising", "0"},
                                                  {"finalists", "1"},
                                                  {"hopeless", "0"},

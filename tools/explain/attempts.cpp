@@ -20,7 +20,9 @@ std::string confidence_below(double confidence) {
 std::vector<std::string> wider_search(const std::string& step, const poses::SegmentParams& params) {
   const poses::ScheduleTerms& schedule = params.terms.schedule;
   const std::string of = "segment_objects.";
-  if (step == "propose") return {format("segment_objects.candidates=%d", 4 * params.candidates)};
+  if (step == "propose")
+    return {of + format("candidates=%d", std::min(10000, 4 * params.candidates))};
+  if (step == "peek") return {of + format("glances=%d", std::min(10000, 4 * schedule.glances))};
   if (step == "glance")
     return {of + format("shortlist=%d", std::min(10000, 4 * schedule.shortlist)),
             of + format("glance_points=%d", 4 * schedule.glance_points)};

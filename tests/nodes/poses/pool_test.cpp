@@ -31,15 +31,16 @@ TEST_CASE("proposals that lie apart become candidates, at most so many", "[poses
       body.hypothesis(beside(0.3), 5)};
   const poses::TakenPlaces none(nms);
   poses::Sought sought = body.sought();
-  const poses::Candidates pool = poses::collect(sought, proposals, none, 10);
+  const poses::Candidates pool = poses::collect(sought, proposals, none);
   CHECK(supports(pool) == Supports{9, 7, 6, 5});
   CHECK(sought.most_support == 9);
   CHECK(pool[0].elsewhere == 5);  // others lie within a fifth of the diagonal
   CHECK(pool[3].elsewhere == 9);
   CHECK(pool[0].T_scene_model.isApprox(beside(0), 1e-5));
   body.params.terms.pool.proposed_fineness = 10;
-  CHECK(supports(poses::collect(sought, proposals, none, 10)) == Supports{9, 8, 7, 6, 5});
-  CHECK(supports(poses::collect(sought, proposals, none, 2)) == Supports{9, 8});
+  CHECK(supports(poses::collect(sought, proposals, none)) == Supports{9, 8, 7, 6, 5});
+  sought.params.candidates = 2;
+  CHECK(supports(poses::collect(sought, proposals, none)) == Supports{9, 8});
 }
 
 TEST_CASE("nothing is proposed where an instance is, or was proposed", "[poses]") {
@@ -54,7 +55,7 @@ TEST_CASE("nothing is proposed where an instance is, or was proposed", "[poses]"
   CHECK(taken.is_clear(sought, beside(1.1 * nms)));
   CHECK_FALSE(taken.is_clear(sought, beside(0.2 - 0.9 * nms)));
   const poses::Candidates pool = poses::collect(
-      sought, {body.hypothesis(beside(0.5 * nms), 9), body.hypothesis(beside(0.1), 3)}, taken, 10);
+      sought, {body.hypothesis(beside(0.5 * nms), 9), body.hypothesis(beside(0.1), 3)}, taken);
   CHECK(supports(pool) == Supports{3});
   CHECK(sought.most_support == 3);
 }
