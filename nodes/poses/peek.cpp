@@ -6,12 +6,17 @@
 #include <functional>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/outline.hpp"
 #include "nodes/geometry/spread.hpp"
 #include "nodes/geometry/strewn.hpp"
 #include "nodes/poses/candidate.hpp"
 
 namespace posevote::poses {
 namespace {
+
+/// Of all looks beside supported points, those that meet the model's outline where the scan's is, as
+/// of right detections (the median): it is not looked for here, and shows all of a flat side's pose.
+constexpr double kUsualEnds = 0.07;
 
 /// Supported is what faces the sensor at the range that it measured there.
 Fit peek(const Sought& sought, const Eigen::Isometry3f& T_scene_model) {
@@ -47,6 +52,7 @@ Fit peek(const Sought& sought, const Eigen::Isometry3f& T_scene_model) {
   const auto supported = static_cast<double>(fit.supported);
   fit.inlier_fraction = supported / static_cast<double>(fit.facing);
   fit.relief = geometry::relief_of(normals.cast<double>() / supported);
+  fit.ends = static_cast<std::size_t>(kUsualEnds * geometry::kOutlineDirections * supported);
   return fit;
 }
 
@@ -57,7 +63,7 @@ std::vector<std::size_t> worth_a_glance(const Sought& sought,
                                         const std::vector<std::size_t>& numbers) {
   const auto most = static_cast<std::size_t>(sought.terms.schedule.glances);
   if (numbers.size() <= most) return numbers;
-  if (!sought.scan.view.usable())
+  if (!sought.scan.view.usable() || sought.scan.takes > 0)
     return {numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(most)};
   struct Rank {
     double rank;

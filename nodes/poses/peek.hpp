@@ -14,7 +14,8 @@
 namespace posevote::poses {
 
 /// Of proposals with these numbers, the best supported first, `glances` at most: the best by a
-/// peek; in their order. The first where no single sensor saw the scan.
+/// peek; in their order. The first where no single sensor saw the scan, and once something was taken
+/// out of it, which the range image does not forget.
 std::vector<std::size_t> worth_a_glance(const Sought& sought,
                                         const std::vector<Hypothesis>& proposals,
                                         const std::vector<std::size_t>& numbers);

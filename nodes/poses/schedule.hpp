@@ -2,8 +2,8 @@
 // Who gets how much attention: the fewer poses are left, the more is spent on each.
 //
 //   step             how many                    judged by
-//   peek             all that were collected,    50 model points, by the range image alone
-//                    4000
+//   peek             all that were collected,    50 model points, by the range image alone, before
+//                    4000                        anything is taken out of the scan
 //   glance           the best of these, 600      the same, by the nearest points of the scan, with
 //                                                twice the tolerance, as proposals lie off by part
 //                                                of a bandwidth

@@ -44,6 +44,8 @@ TEST_CASE("a peek tells a pose from those that the sensor saw through", "[poses]
   CHECK(some[2] == 5);
   CHECK(worth(1, {1, 3}).size() == 1);
   CHECK(worth(1, {}).empty());
+  body.scan.take_out(body.model, beside(0.4), 0.01F);  // the range image does not know
+  CHECK(worth(1, all) == Numbers{0});
 }
 
 TEST_CASE("without a single view the best supported are glanced at", "[poses]") {
