@@ -41,12 +41,9 @@ struct Sensed {
   float tolerance, clear_distance;
 };
 
-Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
-  const float apparent = sensed.scan.facing_cosine(p);
-  if (apparent == 0) return {};
-  if (const auto partner = sensed.scan.nearest_compatible(p, sensed.tolerance))
-    return {Verdict::kSupported, apparent,
-            static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
+/// Of a point that faces the sensor. `there`: what one is where something was measured at its range.
+Judged judge_by_range(const geometry::OrientedPoint& p, float apparent, const Sensed& sensed,
+                      Verdict there) {
   const float measured = sensed.view.measured_range(p.point);
   if (measured == 0) {
     if (sensed.view.is_outside(p.point)) return {Verdict::kHidden};
@@ -54,7 +51,16 @@ Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
   }
   const float before = measured - (p.point - sensed.scan.viewpoint()).norm();
   if (before > sensed.clear_distance) return {Verdict::kContradicted, apparent};
-  return {before < -sensed.clear_distance ? Verdict::kHidden : Verdict::kMismatched, apparent};
+  return {before < -sensed.clear_distance ? Verdict::kHidden : there, apparent, 0, p.normal};
+}
+
+Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
+  const float apparent = sensed.scan.facing_cosine(p);
+  if (apparent == 0) return {};
+  if (const auto partner = sensed.scan.nearest_compatible(p, sensed.tolerance))
+    return {Verdict::kSupported, apparent,
+            static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
+  return judge_by_range(p, apparent, sensed, Verdict::kMismatched);
 }
 
 /// Of a place where the model's surface is no more: what the scan's does there.
@@ -104,13 +110,13 @@ Fit count(const std::vector<Judged>& points) {
     ++fit.facing;
     squared += point.residual * point.residual;
     const Eigen::Vector3d normal = point.normal.cast<double>();
-    normals += normal * normal.transpose();
     const auto apparent = static_cast<double>(point.apparent);
     switch (point.verdict) {
       case Verdict::kAway:
         break;
       case Verdict::kSupported:
         ++fit.supported, fit.apparent.supported += apparent;
+        normals += normal * normal.transpose();
         break;
       case Verdict::kContradicted:
         ++fit.contradicted, fit.apparent.contradicted += apparent;
@@ -196,6 +202,23 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
     });
   });
   add(beside, fit);
+  return fit;
+}
+
+Fit measure_by_range(const Cloud& model, const geometry::ScanSurface& scan,
+                     const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
+                     float tolerance, Eigen::Index points, const FitTerms& terms) {
+  const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const geometry::Strewn rows(model.points.rows(), points);
+  std::vector<Judged> judged(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const geometry::OrientedPoint p = geometry::posed_point(model, rows[k], T);
+    if (const float apparent = scan.facing_cosine(p); apparent > 0)
+      judged[k] = judge_by_range(p, apparent, sensed, Verdict::kSupported);
+  }
+  Fit fit = count(judged);
+  fit.stands_for = static_cast<double>(rows.stride());
   return fit;
 }
 

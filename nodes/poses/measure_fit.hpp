@@ -69,6 +69,12 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
                 const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
                 float tolerance, const Sampling& sampling = {}, const FitTerms& terms = {});
 
+/// The same by the range image alone, a projection for each of about so many `points`: supported is
+/// what faces the sensor at the range that it measured there. Nothing is known of residuals and ends.
+Fit measure_by_range(const Cloud& model, const geometry::ScanSurface& scan,
+                     const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
+                     float tolerance, Eigen::Index points, const FitTerms& terms = {});
+
 /// What some points say of a pose.
 struct Evidence {
   double balance = 0;     ///< those for it less those against it

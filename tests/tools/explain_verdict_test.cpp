@@ -261,6 +261,7 @@ TEST_CASE("only settings that act on the stage are tried", "[explain]") {
     return settings_for(one, {}, 0.004);
   };
   CHECK(settings(Cause::kNotSeen, "").empty());
+  CHECK(settings(Cause::kOutranked, "peek").front() == "segment_objects.glances=2400");
   CHECK(settings(Cause::kOutranked, "glance").front() == "segment_objects.shortlist=640");
   CHECK(settings(Cause::kOutranked, "refine").front() == "segment_objects.finalists=20");
   CHECK(settings(Cause::kDisagree, "").at(3) == "scan_octaves.finest=0.002");
