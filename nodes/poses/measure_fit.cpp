@@ -36,6 +36,13 @@ struct Beside {
 
 /// What the sensor measured, and which distances count as near and as far [m].
 struct Sensed {
+  Sensed(const geometry::ScanSurface& of, const geometry::RangeView& seen, float near,
+         const FitTerms& terms)
+      : scan(of),
+        view(seen),
+        tolerance(near),
+        clear_distance(static_cast<float>(terms.clear_distance) * near) {}
+
   const geometry::ScanSurface& scan;
   const geometry::RangeView& view;
   float tolerance, clear_distance;
@@ -109,15 +116,16 @@ Fit count(const std::vector<Judged>& points) {
     if (point.verdict == Verdict::kAway) continue;
     ++fit.facing;
     squared += point.residual * point.residual;
-    const Eigen::Vector3d normal = point.normal.cast<double>();
     const auto apparent = static_cast<double>(point.apparent);
     switch (point.verdict) {
       case Verdict::kAway:
         break;
-      case Verdict::kSupported:
+      case Verdict::kSupported: {
         ++fit.supported, fit.apparent.supported += apparent;
+        const Eigen::Vector3d normal = point.normal.cast<double>();
         normals += normal * normal.transpose();
         break;
+      }
       case Verdict::kContradicted:
         ++fit.contradicted, fit.apparent.contradicted += apparent;
         break;
@@ -173,7 +181,7 @@ void add(const std::vector<Beside>& points, Fit& fit) {
 Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::ScanSurface& scan,
                 const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
                 float tolerance, const Sampling& sampling, const FitTerms& terms) {
-  const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
+  const Sensed sensed(scan, view, tolerance, terms);
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const geometry::Strewn rows(model.points.rows(), sampling.points);
   std::vector<Judged> points(rows.size());
@@ -208,7 +216,7 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
 Fit measure_by_range(const Cloud& model, const geometry::ScanSurface& scan,
                      const geometry::RangeView& view, const Eigen::Isometry3d& T_scene_model,
                      float tolerance, Eigen::Index points, const FitTerms& terms) {
-  const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
+  const Sensed sensed(scan, view, tolerance, terms);
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const geometry::Strewn rows(model.points.rows(), points);
   std::vector<Judged> judged(rows.size());
@@ -226,7 +234,7 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
                       const geometry::ScanSurface& scan, const geometry::RangeView& view,
                       const Eigen::Isometry3d& T_scene_model, float tolerance,
                       const FitTerms& terms) {
-  const Sensed sensed{scan, view, tolerance, static_cast<float>(terms.clear_distance) * tolerance};
+  const Sensed sensed(scan, view, tolerance, terms);
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::vector<Judged> judged;
   judged.reserve(points.size());
