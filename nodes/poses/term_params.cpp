@@ -151,6 +151,13 @@ void add_twins(Node& node) {
        "By which one of two look-alikes leads to tell; of points, more is no surer.", at_least(0));
   term("lead_odds", &TwinTerms::lead_odds, "log odds", "Of each deviation of that lead.",
        at_least(0));
+  term("err_alike", &TwinTerms::err_alike, "points",
+       "Of the scan that count for one where they lie off the surfaces of two look-alikes by "
+       "different lengths.",
+       at_least(1));
+  term("least_difference", &TwinTerms::least_difference, "x tolerance",
+       "Lengths that differ by less do not count: facets, and what samples leave between them.",
+       in_range(0.01, 1));
 }
 
 void add_shift(Node& node) {

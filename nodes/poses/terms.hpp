@@ -102,6 +102,8 @@ struct CovarianceTerms {
 struct TwinTerms {
   double telling = 2;
   double lead_odds = 1;
+  double err_alike = 4;  ///< points
+  double least_difference = 0.4;
 };
 
 struct Terms {

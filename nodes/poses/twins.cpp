@@ -7,6 +7,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/poses/confidence.hpp"
+#include "nodes/poses/residual_lead.hpp"
 #include "nodes/poses/schedule.hpp"
 #include "nodes/poses/score.hpp"
 
@@ -33,16 +34,26 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
   return twins;
 }
 
-/// By what both were judged by, and where they differ.
+double residual_lead(const Sought& sought, const Candidate& origin, const Candidate& twin) {
+  return residual_lead(sought, twin.T_scene_model, origin.T_scene_model);
+}
+
+/// By what both were judged by, and where they differ. The scan's points, which take longest, are
+/// asked only where they might bring it above `needed`.
 double log_odds_over(const Sought& sought, const Candidate& origin, const Candidate& twin,
-                     double lead) {
-  return log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
-         log_odds_of_lead(lead, sought.terms.twins);
+                     double needed) {
+  const TwinTerms& terms = sought.terms.twins;
+  const double odds = log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
+                      log_odds_of_lead(lead_over(sought, origin, twin), terms);
+  if (odds + log_odds_of_lead(terms.telling, terms) <= needed) return odds;
+  return odds + log_odds_of_lead(residual_lead(sought, origin, twin), terms);
 }
 
 /// Beside colours, whose places are apart, points that err alike must not count each.
-double lead_of_both(double by_color, double by_shape, const Sought& sought) {
-  return by_color + by_shape / std::sqrt(sought.terms.color.err_alike);
+double lead_of_both(double by_color, const Sought& sought, const Candidate& origin,
+                    const Candidate& twin) {
+  return by_color + lead_over(sought, origin, twin) / std::sqrt(sought.terms.color.err_alike) +
+         residual_lead(sought, origin, twin);
 }
 
 constexpr double kSameTurn = 0.35;    // [rad] 20 deg, as in find_symmetries
@@ -63,11 +74,12 @@ bool is_among(const Eigen::Quaterniond& turn, const Symmetries& symmetries) {
 /// How much more the scan speaks for a twin that was not refined, by shape, and by colours where they
 /// are known.
 double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate twin) {
-  const double by_shape = lead_over(sought, candidate, twin);
-  if (!candidate.colors) return by_shape;
-  twin.colors = measure_colors(sought, twin.T_scene_model, sought.terms.color.look_points);
-  const double by_color = color_lead(twin.colors, candidate.colors);
-  return by_color == 0 ? by_shape : lead_of_both(by_color, by_shape, sought);
+  if (candidate.colors) {
+    twin.colors = measure_colors(sought, twin.T_scene_model, sought.terms.color.look_points);
+    const double by_color = color_lead(twin.colors, candidate.colors);
+    if (by_color != 0) return lead_of_both(by_color, sought, candidate, twin);
+  }
+  return lead_over(sought, candidate, twin) + residual_lead(sought, candidate, twin);
 }
 
 }  // namespace
@@ -97,12 +109,12 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
   Candidate best = candidate;
   double highest = 0;
   for (const Candidate& twin : twins) {
+    if (!taken.is_clear(sought, twin.T_scene_model)) continue;
     const double by_color = color_lead(twin.colors, candidate.colors);
-    const double by_shape = lead_over(sought, candidate, twin);
     // What colours tell leaves no need to ask the confidences.
-    const double lead = by_color == 0 ? log_odds_over(sought, candidate, twin, by_shape)
-                                      : lead_of_both(by_color, by_shape, sought);
-    if (lead <= highest || !taken.is_clear(sought, twin.T_scene_model)) continue;
+    const double lead = by_color == 0 ? log_odds_over(sought, candidate, twin, highest)
+                                      : lead_of_both(by_color, sought, candidate, twin);
+    if (lead <= highest) continue;
     best = twin;
     highest = lead;
   }

@@ -31,7 +31,7 @@ class Finder {
 
   const Vector3d& mean() const { return mean_; }
   bool is_exact(const Quaterniond& turn) const {
-    return is_exact_(geometry::turn_about(mean_, turn));
+    return is_exact_.strictly(geometry::turn_about(mean_, turn));
   }
 
   /// Continuous ones: main axes of the cloud, which are the most precise, or of the turns; at most
@@ -73,7 +73,9 @@ class Finder {
  private:
   bool is_continuous(const Vector3d& axis) const {
     for (const double degrees : {23.0, 49.0, 67.0, 83.0, 101.0, 131.0, 157.0})
-      if (!is_exact(Quaterniond(AngleAxisd(degrees * kDegree, axis)))) return false;
+      if (!is_exact_.about(
+              geometry::turn_about(mean_, Quaterniond(AngleAxisd(degrees * kDegree, axis)))))
+        return false;
     return true;
   }
   void add(const Quaterniond& turn, std::vector<Quaterniond>& all) const {

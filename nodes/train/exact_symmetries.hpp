@@ -10,8 +10,11 @@
 
 namespace posevote::train {
 
-/// Whether a motion in the model's own frame carries it onto itself, as far as anyone can tell.
-using IsExact = std::function<bool(const Eigen::Isometry3d& motion)>;
+/// Whether a motion in the model's own frame carries it onto itself: as far as anyone can tell, and
+/// but for small marks, which a round body may have.
+struct IsExact {
+  std::function<bool(const Eigen::Isometry3d&motion)> strictly, about;
+};
 
 /// The symmetries of a cloud that is evenly sampled: those of `motions` that are exact and what
 /// they make together. All turn about the cloud's mean, which each of them leaves where it is. An

@@ -41,7 +41,8 @@ struct Params {
   int sample = 500;
   double coarse = 0.05;
   double fine = 2;
-  double symmetric = 0.99;
+  double round = 0.99;
+  double symmetric = 0.999;
   double same_motion = 20;
 };
 
@@ -106,6 +107,7 @@ class Judge {
   Judge(const Cloud& cloud, float fine, const Params& params)
       : params_(params),
         sample_(every(cloud, params.sample)),
+        many_(every(cloud, kMany)),
         surface_(cloud, false, fine),
         fine_(fine) {}
 
@@ -113,18 +115,14 @@ class Judge {
     const Isometry3d motion = geometry::icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
     return {motion, overlap_of(sample_, surface_, motion, fine_)};
   }
-  /// Whether two motions lead to poses that look the same.
-  bool same(const Isometry3d& a, const Isometry3d& b) const {
-    const Isometry3d between = a.inverse() * b;
-    if (Eigen::AngleAxisd(between.linear()).angle() < params_.same_motion * std::numbers::pi / 180)
-      return true;
-    return is_exact(between);
-  }
-  /// Whether a motion carries the model onto itself.
+  /// Whether a motion carries the model onto itself. A notch of a hundredth of the surface tells
+  /// which way round an integrated circuit lies.
   bool is_exact(const Isometry3d& motion) const {
-    return share_of(sample_, motion, [this](const geometry::OrientedPoint& p) {
-             return is_on(p);
-           }) >= params_.symmetric;
+    return is_about_exact(motion) && share_on(many_, motion) >= params_.symmetric;
+  }
+  /// But for marks so small that of round bodies the votes agree about the axis all the same.
+  bool is_about_exact(const Isometry3d& motion) const {
+    return share_on(sample_, motion) >= params_.round;
   }
   /// The points of the cloud that a motion carries off the surface.
   std::vector<std::uint32_t> carried_off(const Cloud& cloud, const Isometry3d& motion) const {
@@ -136,11 +134,16 @@ class Judge {
   }
 
  private:
+  static constexpr Eigen::Index kMany = 5000;
+
   /// Normals aside, which are anyone's at an edge.
   bool is_on(const geometry::OrientedPoint& p) const { return surface_.is_near(p.point, fine_); }
+  double share_on(const Cloud& sample, const Isometry3d& motion) const {
+    return share_of(sample, motion, [this](const geometry::OrientedPoint& p) { return is_on(p); });
+  }
 
   const Params& params_;
-  Cloud sample_;
+  Cloud sample_, many_;
   geometry::ScanSurface surface_;
   float fine_;
 };
@@ -149,21 +152,41 @@ Symmetries find_exact(const Cloud& cloud, const Judge& judge, const std::vector<
                       const Params& params) {
   std::vector<Isometry3d> all;
   for (const Rated& one : motions) all.push_back(one.motion);
-  return exact_symmetries(cloud, all, params.same_motion * std::numbers::pi / 180,
-                          [&judge](const Isometry3d& motion) { return judge.is_exact(motion); });
+  return exact_symmetries(
+      cloud, all, params.same_motion * std::numbers::pi / 180,
+      {[&judge](const Isometry3d& motion) { return judge.is_exact(motion); },
+       [&judge](const Isometry3d& motion) { return judge.is_about_exact(motion); }});
+}
+
+/// Whether two motions lead to poses that look the same.
+bool look_same(const Judge& judge, const Isometry3d& a, const Isometry3d& b,
+               const Symmetries& symmetries, double same_motion) {
+  const Isometry3d between = a.inverse() * b;
+  const auto is_turned_less = [&](double angle) {
+    return angle < same_motion * std::numbers::pi / 180;
+  };
+  if (is_turned_less(Eigen::AngleAxisd(between.linear()).angle()) || judge.is_exact(between))
+    return true;
+  const bool is_about_axis = std::ranges::any_of(symmetries.axes, [&](const Eigen::Vector3f& one) {
+    const Eigen::Vector3d axis = one.cast<double>();
+    return is_turned_less(std::acos(std::clamp(axis.dot(between.linear() * axis), -1.0, 1.0)));
+  });
+  return is_about_axis && judge.is_about_exact(between);
 }
 
 NearSymmetries find_near(const Cloud& cloud, const Judge& judge, const std::vector<Rated>& motions,
-                         const Params& params) {
+                         const Symmetries& symmetries, const Params& params) {
   NearSymmetries found;
+  const auto same = [&](const Isometry3d& a, const Isometry3d& b) {
+    return look_same(judge, a, b, symmetries, params.same_motion);
+  };
   for (const Rated& one : motions) {
     if (one.overlap < params.least || found.items.size() == static_cast<std::size_t>(params.most))
       break;
     const bool known =
-        judge.same(Isometry3d::Identity(), one.motion) ||
-        std::any_of(found.items.begin(), found.items.end(), [&](const NearSymmetry& other) {
-          return judge.same(other.motion, one.motion);
-        });
+        same(Isometry3d::Identity(), one.motion) ||
+        std::any_of(found.items.begin(), found.items.end(),
+                    [&](const NearSymmetry& other) { return same(other.motion, one.motion); });
     if (!known)
       found.items.push_back({one.motion, judge.carried_off(cloud, one.motion),
                              judge.carried_off(cloud, one.motion.inverse())});
@@ -183,7 +206,8 @@ std::tuple<Symmetries, NearSymmetries> find_symmetries(const Cloud& cloud, const
   graph::parallel_for(motions.size(), 1,
                       [&](std::size_t i) { motions[i] = judge.refine(motions[i], near); });
   sort_by_overlap(motions);
-  return {find_exact(cloud, judge, motions, params), find_near(cloud, judge, motions, params)};
+  const Symmetries exact = find_exact(cloud, judge, motions, params);
+  return {exact, find_near(cloud, judge, motions, exact, params)};
 }
 
 const auto registered =
@@ -216,9 +240,12 @@ const auto registered =
         .expert_param("fine", &Params::fine, "x resolution",
                       "And after it: what a scan may show of a difference (inlier_distance).",
                       graph::in_range(0.1, 100))
+        .expert_param("round", &Params::round, "",
+                      "Share of points that stay on the surface at all turns about an axis from "
+                      "which on an object is round.",
+                      graph::in_range(0, 1))
         .expert_param("symmetric", &Params::symmetric, "",
-                      "Share of points that stay on the surface from which on nothing differs; the "
-                      "rest is sampling.",
+                      "And at other motions, from which on nothing differs; the rest is sampling.",
                       graph::in_range(0, 1))
         .expert_param("same_motion", &Params::same_motion, "deg",
                       "Motions that differ by less are one.", graph::in_range(0, 180));

@@ -55,6 +55,8 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"polish_still", "0"},
                                                  {"telling", "1e9"},  // nothing is
                                                  {"lead_odds", "0"},
+                                                 {"err_alike", "1e9"},
+                                                 {"least_difference", "0.01"},
                                                  {"most_shifts", "0"},
                                                  {"least_facing_cosine", "0"},
                                                  {"least_normal_cosine", "-1"},
@@ -67,6 +69,7 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"view_footprint", "0"},
                                                  {"view_most_half_cells", "0"},
                                                  {"most", "0"},
+                                                 {"round", "1"},
                                                  {"symmetric", "1"},
                                                  {"same_motion", "0"}};
 

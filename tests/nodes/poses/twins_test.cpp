@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "nodes/poses/confidence.hpp"
 #include "nodes/poses/score.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
 
@@ -13,7 +14,8 @@ using namespace posevote::test;
 
 namespace {
 
-/// The body proposed as its twin: `motion` carries it to where it is.
+/// The body proposed as its twin: `motion` carries it to where it is. What the scan's points say of
+/// it (residual_lead_test.cpp) does not count.
 struct Mistaken {
   SoughtBody body{{kBody}};
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
@@ -22,6 +24,7 @@ struct Mistaken {
 
   Mistaken() {
     body.params.refine = false;
+    body.params.terms.twins.err_alike = 1e18;
     motion.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
     wrong = body.candidate(kBody.T_scene_model * motion.inverse());
     right = body.candidate(kBody.T_scene_model);
@@ -40,11 +43,11 @@ struct Mistaken {
               const std::vector<std::uint32_t>& uncovered) {
     body.model.near_symmetries = {{{motion, carried_off, uncovered}}};
   }
-  bool chooses_right() const {
+  poses::Candidate chosen() const {
     const poses::TakenPlaces none(0);
-    return poses::best_alike(body.sought(), wrong, none)
-        .T_scene_model.isApprox(right.T_scene_model, 1e-9);
+    return poses::best_alike(body.sought(), wrong, none);
   }
+  bool chooses_right() const { return chosen().T_scene_model.isApprox(right.T_scene_model, 1e-9); }
 };
 
 }  // namespace
@@ -76,6 +79,22 @@ TEST_CASE("of twins, the points where they differ and the confidences decide", "
   CHECK_FALSE(setting.chooses_right());
   terms.telling = 0;  // no lead tells
   CHECK(setting.chooses_right());
+}
+
+TEST_CASE("the scan's points decide, too, where twins differ", "[poses]") {
+  Mistaken setting;
+  setting.differ({}, {});
+  setting.wrong.confidence = 0;
+  REQUIRE(setting.chooses_right());
+  setting.wrong.confidence =
+      poses::probability_of(1 + poses::log_odds_of(setting.chosen().confidence));
+  CHECK_FALSE(setting.chooses_right());
+  CHECK(poses::look_alikes(setting.body.sought(), setting.wrong).size() == 1);
+  setting.body.params.terms.twins.err_alike = 4;
+  CHECK(setting.chooses_right());
+  CHECK(poses::look_alikes(setting.body.sought(), setting.right).empty());
+  setting.body.params.terms.twins.telling = 0.5;  // too little against a deviation of confidence
+  CHECK_FALSE(setting.chooses_right());
 }
 
 TEST_CASE("a twin whose place is taken does not compete", "[poses]") {

@@ -157,8 +157,9 @@ TEST_CASE("of poses that look alike, confidences and points where they differ de
   REQUIRE(for_wrong.size() > 100);
   const auto is_found = [&](const NearSymmetry& near_symmetry, const char* lead_odds = "1") {
     model->near_symmetries = {{near_symmetry}};
-    const auto found = segmented({model, {beside({1, wrong}, 0, 9)}}, scan,
-                                 {{"refine", "false"}, {"lead_odds", lead_odds}});
+    const auto found =
+        segmented({model, {beside({1, wrong}, 0, 9)}}, scan,
+                  {{"refine", "false"}, {"lead_odds", lead_odds}, {"err_alike", "1e18"}});
     return found.size() == 1 &&
            found[0].T_scene_model.linear().isApprox(kLeft.T_scene_model.linear(), 0.02);
   };

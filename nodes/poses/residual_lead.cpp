@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/poses/residual_lead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "graph/parallel.hpp"
+#include "nodes/geometry/plane_fit.hpp"
+
+namespace posevote::poses {
+namespace {
+
+constexpr std::size_t kGrain = 256;   // points, which take their time
+constexpr double kOfMedian = 1.4826;  // a normal distribution's deviation / median of its amounts
+constexpr float kAgree = 0.7F;        // cosine, 45 deg
+
+/// The distance of one of the scan's points from the surface of a posed model, at most `most`.
+float off_surface(const Sought& sought, const Eigen::Isometry3f& T_model_scene, Eigen::Index row,
+                  float most) {
+  const Cloud& model = sought.model.cloud;
+  const Eigen::Vector3f place = T_model_scene * sought.scan.cloud.points.row(row).transpose();
+  const geometry::NearestPoint nearest = sought.model_index->nearest.nearest(place, most);
+  if (!nearest) return most;
+  const auto i = static_cast<Eigen::Index>(nearest.index);
+  const Eigen::Vector3f away = place - model.points.row(i).transpose();
+  const Eigen::Vector3f seen =
+      T_model_scene.linear() * sought.scan.cloud.normals.row(row).transpose();
+  const auto normal = model.normals.row(i);
+  return std::min(normal.dot(seen) < kAgree ? away.norm() : std::abs(normal.dot(away)), most);
+}
+
+/// Rows of the scan that are left where one of two posed models is.
+std::vector<Eigen::Index> rows_at(const Sought& sought, const Eigen::Isometry3d& one,
+                                  const Eigen::Isometry3d& other) {
+  const auto center = [&](const Eigen::Isometry3d& T_scene_model) -> Eigen::RowVector3f {
+    return posed_center(T_scene_model, sought.model.center).cast<float>().transpose();
+  };
+  const Eigen::RowVector3f middle = (center(one) + center(other)) / 2;
+  const float reach = static_cast<float>(sought.reach) + sought.params.tolerance +
+                      (center(one) - center(other)).norm() / 2;
+  const PointMatrix& points = sought.scan.cloud.points;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    if ((points.row(i) - middle).squaredNorm() < reach * reach &&
+        !sought.scan.surface.is_gone(static_cast<std::size_t>(i)))
+      rows.push_back(i);
+  return rows;
+}
+
+struct Off {
+  float one, other;
+};
+
+}  // namespace
+
+double residual_lead(const Sought& sought, const Eigen::Isometry3d& one,
+                     const Eigen::Isometry3d& other) {
+  const float near = sought.params.tolerance;
+  const std::vector<Eigen::Index> rows = rows_at(sought, one, other);
+  const Eigen::Isometry3f to_one = one.inverse().cast<float>(),
+                          to_other = other.inverse().cast<float>();
+  std::vector<Off> off(rows.size());
+  graph::parallel_for(off.size(), kGrain, [&](std::size_t i) {
+    off[i] = {off_surface(sought, to_one, rows[i], near),
+              off_surface(sought, to_other, rows[i], near)};
+  });
+  std::erase_if(off, [near](const Off& point) { return point.one >= near && point.other >= near; });
+  std::vector<float> nearer;
+  for (const Off& point : off) nearer.push_back(std::min(point.one, point.other));
+  const TwinTerms& terms = sought.terms.twins;
+  const double deviation =
+      std::max(kOfMedian * static_cast<double>(geometry::upper_median(std::move(nearer))),
+               terms.least_difference * static_cast<double>(near));
+  constexpr double kMost = 3;  // deviations, from which on all are as far off
+  double balance = 0, sides = 0;
+  for (const Off& point : off) {
+    const double a = std::min(static_cast<double>(point.one) / deviation, kMost),
+                 b = std::min(static_cast<double>(point.other) / deviation, kMost);
+    if (std::abs(a - b) < 1) continue;
+    balance += b * b - a * a;
+    sides += std::abs(b * b - a * a);
+  }
+  return sides > 0 ? balance / (2 * std::sqrt(terms.err_alike * sides)) : 0;
+}
+
+}  // namespace posevote::poses
