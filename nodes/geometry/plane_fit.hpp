@@ -30,6 +30,9 @@ std::vector<std::size_t> sample_of(std::size_t count);
 /// The median, of an even number the upper of the two; 0 of nothing.
 float upper_median(std::vector<float> values);
 
+/// A normal distribution's standard deviation over the median of its amounts.
+constexpr double kDeviationOfMedian = 1.4826;
+
 /// The typical thickness of planes at some of many places [m], by fit(place, min_neighbours), which
 /// several threads call.
 float typical_thickness(std::size_t count,

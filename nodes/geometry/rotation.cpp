@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/rotation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace posevote::geometry {
@@ -29,6 +31,10 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::Matrix3d relative = a.transpose() * b;
   const Eigen::Quaterniond q(relative);
   return 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
+}
+
+double angle_between_axes(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
 }
 
 }  // namespace posevote::geometry

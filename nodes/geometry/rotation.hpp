@@ -18,4 +18,7 @@ Eigen::Isometry3d turn_about(const Eigen::Vector3d& point, const Eigen::Quaterni
 /// Angle of the rotation that carries a into b, in [0, pi]; also right for tiny angles.
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 
+/// Angle between two unit vectors, in [0, pi].
+double angle_between_axes(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
 }  // namespace posevote::geometry

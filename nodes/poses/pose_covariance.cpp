@@ -23,6 +23,7 @@
 
 #include "nodes/geometry/icp_pairs.hpp"
 #include "nodes/geometry/nearest_index.hpp"
+#include "nodes/geometry/plane_fit.hpp"
 #include "nodes/geometry/rows_that.hpp"
 
 namespace posevote::poses {
@@ -131,10 +132,9 @@ double noise_of(const Sought& sought, const std::vector<geometry::IcpPair>& pair
   std::vector<double> off =
       geometry::joined_ranges(static_cast<std::size_t>(scan.rows()), of_range, 1024);
   if (off.empty()) return 0;
-  constexpr double kNormal = 1.4826;  // of a normal distribution: deviation / median deviation
   const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
   std::nth_element(off.begin(), middle, off.end());
-  return kNormal * *middle;
+  return geometry::kDeviationOfMedian * *middle;
 }
 
 /// From (lever x turn, shift) of the centre to (shift, turn in rad) of the model's origin.

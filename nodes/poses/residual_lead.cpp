@@ -11,9 +11,7 @@
 namespace posevote::poses {
 namespace {
 
-constexpr std::size_t kGrain = 256;   // points, which take their time
-constexpr double kOfMedian = 1.4826;  // a normal distribution's deviation / median of its amounts
-constexpr float kAgree = 0.7F;        // cosine, 45 deg
+constexpr std::size_t kGrain = 256;  // points, which take their time
 
 /// The distance of one of the scan's points from the surface of a posed model, at most `most`.
 float off_surface(const Sought& sought, const Eigen::Isometry3f& T_model_scene, Eigen::Index row,
@@ -27,7 +25,8 @@ float off_surface(const Sought& sought, const Eigen::Isometry3f& T_model_scene, 
   const Eigen::Vector3f seen =
       T_model_scene.linear() * sought.scan.cloud.normals.row(row).transpose();
   const auto normal = model.normals.row(i);
-  return std::min(normal.dot(seen) < kAgree ? away.norm() : std::abs(normal.dot(away)), most);
+  const auto agree = static_cast<float>(sought.terms.surface.least_normal_cosine);
+  return std::min(normal.dot(seen) < agree ? away.norm() : std::abs(normal.dot(away)), most);
 }
 
 /// Rows of the scan that are left where one of two posed models is.
@@ -69,9 +68,9 @@ double residual_lead(const Sought& sought, const Eigen::Isometry3d& one,
   std::vector<float> nearer;
   for (const Off& point : off) nearer.push_back(std::min(point.one, point.other));
   const TwinTerms& terms = sought.terms.twins;
-  const double deviation =
-      std::max(kOfMedian * static_cast<double>(geometry::upper_median(std::move(nearer))),
-               terms.least_difference * static_cast<double>(near));
+  const double deviation = std::max(
+      geometry::kDeviationOfMedian * static_cast<double>(geometry::upper_median(std::move(nearer))),
+      terms.least_difference * static_cast<double>(near));
   constexpr double kMost = 3;  // deviations, from which on all are as far off
   double balance = 0, sides = 0;
   for (const Off& point : off) {

@@ -91,7 +91,9 @@ void add_confidence(Node& node) {
     node.expert_param(
         std::string("confidence_") + kClueNames[i],
         [i](SegmentParams& params) -> double& { return params.terms.confidence.weights[i]; },
-        "log odds", "Weight of that clue in the confidence. Found by posevote calibrate.",
+        "log odds",
+        "Weight of that clue in the confidence. Found by posevote calibrate, and moved "
+        "(terms.hpp).",
         in_range(-1e6, 1e6));
   const Register<ConfidenceTerms> term{node, &Terms::confidence};
   term("doubtful", &ConfidenceTerms::doubtful, "x min_confidence",
@@ -102,7 +104,8 @@ void add_confidence(Node& node) {
   node.expert_param(
       "confidence_offset",
       [](SegmentParams& params) -> double& { return params.terms.confidence.offset; }, "log odds",
-      "Confidence of a pose whose clues are all 0. Found by posevote calibrate.",
+      "Confidence of a pose whose clues are all 0. Found by posevote calibrate, and moved "
+      "(terms.hpp).",
       in_range(-1e6, 1e6));
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/rotation.hpp"
 #include "nodes/poses/confidence.hpp"
 #include "nodes/poses/residual_lead.hpp"
 #include "nodes/poses/schedule.hpp"
@@ -34,7 +35,8 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
   return twins;
 }
 
-double residual_lead(const Sought& sought, const Candidate& origin, const Candidate& twin) {
+/// As lead_over, of the scan's points.
+double scan_lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {
   return residual_lead(sought, twin.T_scene_model, origin.T_scene_model);
 }
 
@@ -46,14 +48,14 @@ double log_odds_over(const Sought& sought, const Candidate& origin, const Candid
   const double odds = log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
                       log_odds_of_lead(lead_over(sought, origin, twin), terms);
   if (odds + log_odds_of_lead(terms.telling, terms) <= needed) return odds;
-  return odds + log_odds_of_lead(residual_lead(sought, origin, twin), terms);
+  return odds + log_odds_of_lead(scan_lead_over(sought, origin, twin), terms);
 }
 
 /// Beside colours, whose places are apart, points that err alike must not count each.
 double lead_of_both(double by_color, const Sought& sought, const Candidate& origin,
                     const Candidate& twin) {
   return by_color + lead_over(sought, origin, twin) / std::sqrt(sought.terms.color.err_alike) +
-         residual_lead(sought, origin, twin);
+         scan_lead_over(sought, origin, twin);
 }
 
 constexpr double kSameTurn = 0.35;    // [rad] 20 deg, as in find_symmetries
@@ -67,7 +69,7 @@ bool is_among(const Eigen::Quaterniond& turn, const Symmetries& symmetries) {
     if (symmetries.axes.empty())
       return between.angularDistance(Eigen::Quaterniond::Identity()) < kSameTurn;
     const Eigen::Vector3d axis = symmetries.axes[0].cast<double>();
-    return std::acos(std::clamp(axis.dot(between * axis), -1.0, 1.0)) < kSameTurn;
+    return geometry::angle_between_axes(axis, between * axis) < kSameTurn;
   });
 }
 
@@ -79,7 +81,7 @@ double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate t
     const double by_color = color_lead(twin.colors, candidate.colors);
     if (by_color != 0) return lead_of_both(by_color, sought, candidate, twin);
   }
-  return lead_over(sought, candidate, twin) + residual_lead(sought, candidate, twin);
+  return lead_over(sought, candidate, twin) + scan_lead_over(sought, candidate, twin);
 }
 
 }  // namespace

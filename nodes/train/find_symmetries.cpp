@@ -169,7 +169,7 @@ bool look_same(const Judge& judge, const Isometry3d& a, const Isometry3d& b,
     return true;
   const bool is_about_axis = std::ranges::any_of(symmetries.axes, [&](const Eigen::Vector3f& one) {
     const Eigen::Vector3d axis = one.cast<double>();
-    return is_turned_less(std::acos(std::clamp(axis.dot(between.linear() * axis), -1.0, 1.0)));
+    return is_turned_less(geometry::angle_between_axes(axis, between.linear() * axis));
   });
   return is_about_axis && judge.is_about_exact(between);
 }
