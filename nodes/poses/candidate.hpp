@@ -45,6 +45,7 @@ struct Candidate {
   double identity = 1;                             ///< of instances (data/detections.hpp)
   double seconds = 0;                              ///< that its search took (object_search.hpp)
   std::size_t near_symmetry = 0;                   ///< for twins: which of the model's made them
+  double of_twin = 0;  ///< for twins: log odds that the pose has more which they outdid (twins.hpp)
   double score() const { return quality * consensus; }
 };
 

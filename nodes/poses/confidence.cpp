@@ -93,7 +93,7 @@ Clues against(const Clues& clues, const ConfidenceTerms& terms) {
 }
 
 double confidence_of(const Candidate& candidate, const Terms& terms) {
-  double log_odds = log_odds_of(candidate.clues, terms.confidence);
+  double log_odds = log_odds_of(candidate.clues, terms.confidence) + candidate.of_twin;
   if (candidate.color_clues) log_odds += log_odds_of(*candidate.color_clues, terms.color);
   return probability_of(log_odds);
 }

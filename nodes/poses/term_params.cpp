@@ -151,7 +151,9 @@ void add_covariance(Node& node) {
 void add_twins(Node& node) {
   const Register<TwinTerms> term{node, &Terms::twins};
   term("telling", &TwinTerms::telling, "standard deviations",
-       "By which one of two look-alikes leads to tell; of points, more is no surer.", at_least(0));
+       "By which one of two look-alikes leads to tell; of points and of confidences more is no "
+       "surer.",
+       at_least(0));
   term("lead_odds", &TwinTerms::lead_odds, "log odds", "Of each deviation of that lead.",
        at_least(0));
   term("err_alike", &TwinTerms::err_alike, "points",

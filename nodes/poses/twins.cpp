@@ -20,6 +20,7 @@ Candidate twin_of(const Sought& sought, const Candidate& candidate, std::size_t 
   Candidate twin = candidate;
   twin.is_refined = false;
   twin.near_symmetry = near_symmetry;
+  twin.of_twin = 0;
   twin.T_scene_model =
       candidate.T_scene_model * sought.model.near_symmetries.items[near_symmetry].motion;
   return twin;
@@ -35,27 +36,34 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
   return twins;
 }
 
+/// To what tells.
+double bounded(double lead, const TwinTerms& terms) {
+  return std::clamp(lead, -terms.telling, terms.telling);
+}
+
 /// As lead_over, of the scan's points.
 double scan_lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {
   return residual_lead(sought, twin.T_scene_model, origin.T_scene_model);
 }
 
-/// By what both were judged by, and where they differ. The scan's points, which take longest, are
-/// asked only where they might bring it above `needed`.
+/// By colours, by what both were judged by, and where they differ; none of them but colours counts
+/// beyond what tells, for each may err: a twin that reaches into a neighbour lies on its points. The
+/// scan's points, which take longest, are asked only where they might bring it above `needed`.
 double log_odds_over(const Sought& sought, const Candidate& origin, const Candidate& twin,
                      double needed) {
   const TwinTerms& terms = sought.terms.twins;
-  const double odds = log_odds_of(twin.confidence) - log_odds_of(origin.confidence) +
+  const double judged = log_odds_of(twin.confidence) - log_odds_of(origin.confidence);
+  const double odds = color_lead(twin.colors, origin.colors) + bounded(judged, terms) +
                       log_odds_of_lead(lead_over(sought, origin, twin), terms);
   if (odds + log_odds_of_lead(terms.telling, terms) <= needed) return odds;
   return odds + log_odds_of_lead(scan_lead_over(sought, origin, twin), terms);
 }
 
-/// Beside colours, whose places are apart, points that err alike must not count each.
-double lead_of_both(double by_color, const Sought& sought, const Candidate& origin,
-                    const Candidate& twin) {
-  return by_color + lead_over(sought, origin, twin) / std::sqrt(sought.terms.color.err_alike) +
-         scan_lead_over(sought, origin, twin);
+/// That one of the two is there is as probable as the better judged one said, whichever it is.
+void inherit(const Sought& sought, const Candidate& outdone, Candidate& best) {
+  const double more = log_odds_of(outdone.confidence) - log_odds_of(best.confidence);
+  best.of_twin += std::max(0.0, bounded(more, sought.terms.twins));
+  best.confidence = confidence_of(best, sought.terms);
 }
 
 constexpr double kSameTurn = 0.35;    // [rad] 20 deg, as in find_symmetries
@@ -79,7 +87,11 @@ double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate t
   if (candidate.colors) {
     twin.colors = measure_colors(sought, twin.T_scene_model, sought.terms.color.look_points);
     const double by_color = color_lead(twin.colors, candidate.colors);
-    if (by_color != 0) return lead_of_both(by_color, sought, candidate, twin);
+    // Beside colours, whose places are apart, points that err alike must not count each.
+    if (by_color != 0)
+      return by_color +
+             lead_over(sought, candidate, twin) / std::sqrt(sought.terms.color.err_alike) +
+             scan_lead_over(sought, candidate, twin);
   }
   return lead_over(sought, candidate, twin) + scan_lead_over(sought, candidate, twin);
 }
@@ -112,14 +124,12 @@ Candidate best_alike(const Sought& sought, const Candidate& candidate, const Tak
   double highest = 0;
   for (const Candidate& twin : twins) {
     if (!taken.is_clear(sought, twin.T_scene_model)) continue;
-    const double by_color = color_lead(twin.colors, candidate.colors);
-    // What colours tell leaves no need to ask the confidences.
-    const double lead = by_color == 0 ? log_odds_over(sought, candidate, twin, highest)
-                                      : lead_of_both(by_color, sought, candidate, twin);
+    const double lead = log_odds_over(sought, candidate, twin, highest);
     if (lead <= highest) continue;
     best = twin;
     highest = lead;
   }
+  if (highest > 0) inherit(sought, candidate, best);
   return best;
 }
 
@@ -133,7 +143,7 @@ bool is_better_by_color(const Sought& sought, const Candidate& rival, const Cand
 }
 
 double log_odds_of_lead(double lead, const TwinTerms& terms) {
-  return terms.lead_odds * std::clamp(lead, -terms.telling, terms.telling);
+  return terms.lead_odds * bounded(lead, terms);
 }
 
 double lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {

@@ -14,7 +14,8 @@
 namespace posevote::poses {
 
 /// The best of a refined pose and its twins, one for each near symmetry of the model, refined too.
-/// They share the hypothesis that proposed it; those at taken places do not compete.
+/// They share the hypothesis that proposed it; those at taken places do not compete. A twin that wins
+/// is as probable as the pose was, within what tells: that the object is there they have in common.
 Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken);
 
 /// Whether colours tell a refined pose from another one of the same place, and the whole of what is

@@ -77,8 +77,26 @@ TEST_CASE("of twins, the points where they differ and the confidences decide", "
   terms.lead_odds = 10;
   setting.differ({}, setting.for_wrong);
   CHECK_FALSE(setting.chooses_right());
-  terms.telling = 0;  // no lead tells
-  CHECK(setting.chooses_right());
+  terms.telling = 0;  // nothing tells
+  CHECK_FALSE(setting.chooses_right());
+}
+
+TEST_CASE("what twins were judged by counts up to what tells", "[poses]") {
+  Mistaken setting;
+  setting.differ({}, {});
+  setting.wrong.confidence = 0;
+  const double own = poses::log_odds_of(setting.chosen().confidence);
+  setting.wrong.confidence = poses::probability_of(own + 4);
+  CHECK_FALSE(setting.chooses_right());
+  setting.body.params.terms.twins.err_alike = 4;
+  setting.differ(setting.for_right, {});
+  REQUIRE(setting.chooses_right());
+  // That the body is there was as probable, but for what does not count.
+  CHECK(poses::log_odds_of(setting.chosen().confidence) == Approx(own + 2).epsilon(1e-6));
+  setting.wrong.confidence = poses::probability_of(own + 1);
+  CHECK(poses::log_odds_of(setting.chosen().confidence) == Approx(own + 1).epsilon(1e-6));
+  setting.wrong.confidence = poses::probability_of(own - 1);
+  CHECK(poses::log_odds_of(setting.chosen().confidence) == Approx(own).epsilon(1e-6));
 }
 
 TEST_CASE("the scan's points decide, too, where twins differ", "[poses]") {
