@@ -12,7 +12,7 @@ namespace posevote {
 
 /// Options of `calibrate`, named as on the command line.
 struct CalibrateCommand {
-  std::vector<std::string> sets{"calibration", "calibration_more"};
+  std::vector<std::string> sets{"calibration", "calibration_more", "calibration_alike"};
   std::string out = "out/calibrate", rule = "add";
   std::vector<std::string> set;
   std::size_t every = 0;
