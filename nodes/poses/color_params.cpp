@@ -20,8 +20,9 @@ void add_color_terms(Node& node) {
        "Edge of the places whose colours count as one, because neighbours are alike.",
        in_range(0.001, 1));
   term("color_err_alike", &G::err_alike, "points",
-       "So many points of twins' shapes count for one beside colours: what patches of a speckle "
-       "sensor's residuals tell (pose_covariance.hpp), 5 to 10.",
+       "So many points of twins' shapes count for one beside colours, in how probable the other "
+       "twin "
+       "is: what patches of a speckle sensor's residuals tell (pose_covariance.hpp), 5 to 10.",
        at_least(1));
   term("color_step", &G::step, "deg",
        "Of the turns about an axis of symmetry that are tried. Finer ones find narrow labels and "

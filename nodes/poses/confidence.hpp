@@ -49,7 +49,7 @@ double log_odds_of(double probability);
 /// it speaks for the pose.
 Clues against(const Clues& clues, const ConfidenceTerms& terms);
 
-/// Of a candidate's clues, and what it has of the twin that it outdid.
+/// Of a candidate's clues, and what it has of the pose that it outdid (twins.hpp).
 double confidence_of(const Candidate& candidate, const Terms& terms);
 
 /// Sets consensus, clues and confidence of a candidate.

@@ -36,7 +36,7 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
   return twins;
 }
 
-/// To what tells.
+/// A lead, or odds, as far as what tells.
 double bounded(double lead, const TwinTerms& terms) {
   return std::clamp(lead, -terms.telling, terms.telling);
 }
@@ -62,7 +62,7 @@ double log_odds_over(const Sought& sought, const Candidate& origin, const Candid
 /// That one of the two is there is as probable as the better judged one said, whichever it is.
 void inherit(const Sought& sought, const Candidate& outdone, Candidate& best) {
   const double more = log_odds_of(outdone.confidence) - log_odds_of(best.confidence);
-  best.of_twin += std::max(0.0, bounded(more, sought.terms.twins));
+  best.of_twin = std::max(0.0, bounded(more, sought.terms.twins));
   best.confidence = confidence_of(best, sought.terms);
 }
 
@@ -84,16 +84,13 @@ bool is_among(const Eigen::Quaterniond& turn, const Symmetries& symmetries) {
 /// How much more the scan speaks for a twin that was not refined, by shape, and by colours where they
 /// are known.
 double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate twin) {
-  if (candidate.colors) {
+  if (candidate.colors)
     twin.colors = measure_colors(sought, twin.T_scene_model, sought.terms.color.look_points);
-    const double by_color = color_lead(twin.colors, candidate.colors);
-    // Beside colours, whose places are apart, points that err alike must not count each.
-    if (by_color != 0)
-      return by_color +
-             lead_over(sought, candidate, twin) / std::sqrt(sought.terms.color.err_alike) +
-             scan_lead_over(sought, candidate, twin);
-  }
-  return lead_over(sought, candidate, twin) + scan_lead_over(sought, candidate, twin);
+  const double by_color = color_lead(twin.colors, candidate.colors);
+  // Beside colours, whose places are apart, points that err alike must not count each.
+  const double count_for_one = by_color != 0 ? sought.terms.color.err_alike : 1;
+  return by_color + lead_over(sought, candidate, twin) / std::sqrt(count_for_one) +
+         scan_lead_over(sought, candidate, twin);
 }
 
 }  // namespace
