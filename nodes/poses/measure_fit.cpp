@@ -9,7 +9,6 @@
 #include "graph/parallel.hpp"
 #include "nodes/geometry/spread.hpp"
 #include "nodes/geometry/strewn.hpp"
-#include "nodes/poses/patches.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -146,25 +145,6 @@ Fit count(const std::vector<Judged>& points) {
   return fit;
 }
 
-/// Of the diagonal: patches that lie off alike, of some twenty points in a close look.
-constexpr float kPatch = 0.1F;
-
-double systematic_residual(const std::vector<Judged>& points, const Cloud& model,
-                           const geometry::Strewn& rows, std::size_t supported) {
-  Eigen::Matrix3Xf places(3, static_cast<Eigen::Index>(supported));
-  Eigen::VectorXd residuals(places.cols());
-  Eigen::Index known = 0;
-  Eigen::AlignedBox3f box;  // of the model
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f place = model.points.row(rows[i]).transpose();
-    box.extend(place);
-    if (points[i].verdict != Verdict::kSupported) continue;
-    places.col(known) = place;
-    residuals[known++] = points[i].residual;
-  }
-  return shared_deviation(places, residuals, kPatch * box.diagonal().norm());
-}
-
 void add(const std::vector<Beside>& points, Fit& fit) {
   for (const Beside& point : points) {
     fit.ends += point.ends;
@@ -190,7 +170,6 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
                       [&](std::size_t i) { points[i] = judge(posed(i), sensed); });
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(rows.stride());
-  if (sampling.closely) fit.systematic = systematic_residual(points, model, rows, fit.supported);
   const float height = static_cast<float>(terms.same_height * fit.rmse) + kSomeHeight * tolerance;
   const Stander stander{outline, T.inverse()};
   std::vector<Beside> beside(points.size());

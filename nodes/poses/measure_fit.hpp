@@ -50,8 +50,8 @@ struct Fit {
   std::size_t holes = 0, filled_holes = 0;  ///< of those, of gaps behind which the model goes on
   double inlier_fraction = 0;               ///< supported / facing
   double rmse = 0;                          ///< point to plane, over the supported [m]
-  /// The part of it that neighbours share, where the pose is looked at closely [m]: what a model
-  /// lies off by, not noise.
+  /// What patches of the scan lie off by, not noise, where the pose is looked at closely [m]
+  /// (systematic_residual.hpp); not of measure_fit.
   double systematic = 0;
   double relief = 0;      ///< of the supported: 0 if all normals are parallel, 2/3 at most
   double stands_for = 1;  ///< so many of the model's points stand for each that was judged
@@ -60,7 +60,7 @@ struct Fit {
 /// Which points of the model are judged, and how closely.
 struct Sampling {
   Eigen::Index points = 0;  ///< about so many, evenly strewn; 0: all
-  bool closely = false;     ///< its gaps and systematic residual, too, for a confidence
+  bool closely = false;     ///< its gaps, too, for a confidence
 };
 
 /// `tolerance`: of support; a surface is clearly behind or before at clear_distance times that [m].

@@ -7,6 +7,7 @@
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/plane_fit.hpp"
+#include "nodes/poses/scan_rows.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -32,19 +33,10 @@ float off_surface(const Sought& sought, const Eigen::Isometry3f& T_model_scene, 
 /// Rows of the scan that are left where one of two posed models is.
 std::vector<Eigen::Index> rows_at(const Sought& sought, const Eigen::Isometry3d& one,
                                   const Eigen::Isometry3d& other) {
-  const auto center = [&](const Eigen::Isometry3d& T_scene_model) -> Eigen::RowVector3f {
-    return posed_center(T_scene_model, sought.model.center).cast<float>().transpose();
-  };
-  const Eigen::RowVector3f middle = (center(one) + center(other)) / 2;
-  const float reach = static_cast<float>(sought.reach) + sought.params.tolerance +
-                      (center(one) - center(other)).norm() / 2;
-  const PointMatrix& points = sought.scan.cloud.points;
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if ((points.row(i) - middle).squaredNorm() < reach * reach &&
-        !sought.scan.surface.is_gone(static_cast<std::size_t>(i)))
-      rows.push_back(i);
-  return rows;
+  const Eigen::Vector3d a = posed_center(one, sought.model.center),
+                        b = posed_center(other, sought.model.center);
+  const double tolerance = static_cast<double>(sought.params.tolerance);
+  return rows_near(sought, (a + b) / 2, sought.reach + tolerance + (a - b).norm() / 2);
 }
 
 struct Off {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nodes/poses/confidence.hpp"
+#include "nodes/poses/systematic_residual.hpp"
 
 namespace posevote::poses {
 
@@ -34,10 +35,12 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
   return sought.memory->fits.get(
       sought.scan, {T_scene_model, 2 * look.sampling.points + look.sampling.closely, look.reach},
       [&] {
-        return answer_at(sought, T_scene_model, tolerance,
-                         measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
-                                     sought.scan.view, T_scene_model, static_cast<float>(tolerance),
-                                     look.sampling, sought.terms.fit));
+        Fit fit = measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
+                              sought.scan.view, T_scene_model, static_cast<float>(tolerance),
+                              look.sampling, sought.terms.fit);
+        if (!look.sampling.closely) return answer_at(sought, T_scene_model, tolerance, fit);
+        fit.systematic = systematic_residual(sought, T_scene_model, look.sampling.points);
+        return answer_at(sought, T_scene_model, tolerance * static_cast<double>(kFarOff), fit);
       });
 }
 

@@ -99,6 +99,7 @@ inline std::shared_ptr<const Model> bumpy_model(int shape) {
   model->name = "bumpy" + std::to_string(shape);
   model->obj_id = shape;
   model->cloud = bumpy_cloud(shape, kResolution);
+  model->resolution = kResolution;
   model->features = features_of(model->cloud, 4);
   const Eigen::RowVector3f low = model->cloud.points.colwise().minCoeff();
   const Eigen::RowVector3f high = model->cloud.points.colwise().maxCoeff();

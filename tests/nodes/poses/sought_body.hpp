@@ -7,11 +7,20 @@
 
 namespace posevote::test {
 
+/// Every point moved along its normal by a normal deviate of this deviation [m].
+inline Cloud with_noise(Cloud cloud, float deviation) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> deviate(0, deviation);
+  for (Eigen::Index i = 0; deviation > 0 && i < cloud.points.rows(); ++i)
+    cloud.points.row(i) += deviate(random) * cloud.normals.row(i);
+  return cloud;
+}
+
 class SoughtBody {
  public:
-  explicit SoughtBody(const std::vector<Placed>& bodies, int shape = 1)
+  explicit SoughtBody(const std::vector<Placed>& bodies, int shape = 1, float noise = 0)
       : model(*bumpy_model(shape)),
-        cloud(scan_of(bodies)),
+        cloud(with_noise(scan_of(bodies), noise)),
         features(features_of(cloud)),
         scan(cloud, features, kResolution) {
     params.inlier_distance = 2;
