@@ -21,7 +21,8 @@ enum Clue : std::size_t {
   kSupport,    ///< log of how many model points are supported
   kGaps,       ///< log of how much of the model's gaps and outline the scan's meets, looked at
                ///< closely
-  kFilled,     ///< share of its holes and slots in which the scan has a surface, times kSupport
+  kFilled,     ///< log odds of the scan having a surface in its holes and slots, as far as these
+               ///< are looked into
   kVisible,    ///< log of the share of what faces the sensor that nothing hides, times -kRelief
   kSunk,       ///< share of its surface that lies in the ground
   kClueCount

@@ -18,6 +18,16 @@ constexpr double kAllSunk = 0.5;
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
 constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0};
 
+/// Looks into holes that nobody took: few of them say little.
+constexpr double kFewLooks = 5;
+
+/// log odds of its holes being filled.
+double filled_odds(const Fit& fit) {
+  const double filled = static_cast<double>(fit.filled_holes) * fit.stands_for;
+  const double open = static_cast<double>(fit.holes) * fit.stands_for - filled;
+  return std::log((filled + kFewLooks) / (open + kFewLooks));
+}
+
 /// Its support over that of the best proposal elsewhere.
 double lead_of(const Candidate& candidate) {
   return candidate.proposed.support / std::max(candidate.elsewhere, kSomeSupport);
@@ -45,7 +55,7 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   // of a bin.
   clues[kOverhang] = (1 - shares.continuity) * clues[kSupport];
   clues[kGaps] = bounded_log(shares.gaps + 0.01, 0.01, 0.5);
-  clues[kFilled] = shares.filled_holes * clues[kSupport];
+  clues[kFilled] = filled_odds(fit);
   // A small piece of a thing may tell it, but not one that is flat.
   clues[kVisible] =
       -clues[kRelief] * bounded_log(static_cast<double>(fit.facing - fit.hidden) /

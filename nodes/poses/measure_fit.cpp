@@ -266,8 +266,7 @@ FitShares shares_of(const Fit& fit, const FitTerms& terms) {
   const double few = terms.few_ends * looks;
   const double agreeing = fit.apparent.supported;
   return {agreeing / (agreeing + fit.apparent.against(terms)), (ends - overhang) / looks,
-          1 - overhang / (ends + few), (gaps - filled) / looks,
-          static_cast<double>(fit.filled_holes) / (static_cast<double>(fit.holes) + few)};
+          1 - overhang / (ends + few), (gaps - filled) / looks};
 }
 
 }  // namespace posevote::poses

@@ -99,7 +99,6 @@ struct FitShares {
                           ///< where the scan's is, less those where the scan goes on
   double continuity = 1;  ///< of the outline, where the scan ends, too
   double gaps = 0;        ///< like outline, of gaps
-  double filled_holes = 0;  ///< of holes, those in which the scan has a surface
 };
 
 /// Of a fit that has supported points.

@@ -40,8 +40,12 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   fit.overhang = 80;
   CHECK(believed(fit) < usual);
   fit = good_fit();
-  fit.holes = 400, fit.filled_holes = 100;
+  fit.holes = 40, fit.filled_holes = 20;
+  CHECK(believed(fit) == Approx(usual));
+  fit.filled_holes = 36;
   CHECK(believed(fit) < usual);
+  fit.filled_holes = 4;
+  CHECK(believed(fit) > usual);
   fit = good_fit();
   fit.ends = 0;
   CHECK(believed(fit) < usual);
@@ -57,9 +61,12 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
 TEST_CASE("a sample of the points makes the same clues", "[poses]") {
   poses::Fit sample = good_fit();
   sample.facing = sample.supported = 100, sample.ends = 40, sample.gaps = 50;
+  sample.holes = 8, sample.filled_holes = 3;
   sample.stands_for = 10;
   const poses::Backing backing{1, 0.5, 2};
-  const Clues all = poses::clues_of(good_fit(), backing);
+  poses::Fit whole = good_fit();
+  whole.holes = 80, whole.filled_holes = 30;
+  const Clues all = poses::clues_of(whole, backing);
   const Clues few = poses::clues_of(sample, backing);
   for (std::size_t i = 0; i < kClueCount; ++i) CHECK(few[i] == Approx(all[i]));
 }
