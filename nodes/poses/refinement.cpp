@@ -47,8 +47,8 @@ geometry::MorePairs ends_of(const Sought& sought, int points) {
     const Model& model = sought.model;
     const float resolution = sought.scan.resolution;
     const std::vector<FaceEnd>& ends = model.face_ends.get(resolution, most, [&] {
-      const auto index = sought.model_index ? sought.model_index : index_of(model, resolution);
-      return geometry::find_face_ends(model.cloud, *index, model.outline, resolution, most);
+      return geometry::find_face_ends(model.cloud, *sought.model_index, model.outline, resolution,
+                                      most);
     });
     return geometry::FaceEnds(model.cloud, ends, sought.scan.surface, sought.scan.view, resolution,
                               sought.terms.edges)

@@ -57,13 +57,15 @@ std::vector<Look> look_at(const Sightings& before, const ModelLibrary& library,
                          .scan = scan,
                          .params = poses::instance_params(before.params, model, scan.resolution),
                          .terms = before.params.terms,
-                         .model_index = nullptr};  // it is for votes, and seldom for ends
+                         .model_index = nullptr};  // below, side by side
     looks.push_back({std::move(sought), one});
   }
   graph::parallel_for(looks.size(), 1, [&](std::size_t i) {
     const Clock::time_point begin = Clock::now();
+    poses::Sought& sought = looks[i].sought;
+    sought.model_index = poses::index_of(sought.model, sought.params.tolerance);
     poses::Candidate& candidate = looks[i].now.candidate;
-    candidate = poses::look(looks[i].sought, candidate);
+    candidate = poses::look(sought, candidate);
     candidate.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   });
   return looks;
