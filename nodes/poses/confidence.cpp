@@ -21,7 +21,7 @@ constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.
 /// Looks into holes that nobody took: few of them say little.
 constexpr double kFewLooks = 5;
 
-/// log odds of its holes being filled.
+/// Log odds of its holes being filled.
 double filled_odds(const Fit& fit) {
   const double filled = static_cast<double>(fit.filled_holes) * fit.stands_for;
   const double open = static_cast<double>(fit.holes) * fit.stands_for - filled;
