@@ -3,31 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "graph/parallel.hpp"
 #include "nodes/geometry/plane_fit.hpp"
-#include "nodes/poses/scan_rows.hpp"
+#include "nodes/poses/scan_points.hpp"
 
 namespace posevote::poses {
 namespace {
 
-constexpr std::size_t kGrain = 256;  // points, which take their time
-
 /// The distance of one of the scan's points from the surface of a posed model, at most `most`.
 float off_surface(const Sought& sought, const Eigen::Isometry3f& T_model_scene, Eigen::Index row,
                   float most) {
-  const Cloud& model = sought.model.cloud;
-  const Eigen::Vector3f place = T_model_scene * sought.scan.cloud.points.row(row).transpose();
-  const geometry::NearestPoint nearest = sought.model_index->nearest.nearest(place, most);
-  if (!nearest) return most;
-  const auto i = static_cast<Eigen::Index>(nearest.index);
-  const Eigen::Vector3f away = place - model.points.row(i).transpose();
-  const Eigen::Vector3f seen =
-      T_model_scene.linear() * sought.scan.cloud.normals.row(row).transpose();
-  const auto normal = model.normals.row(i);
-  const auto agree = static_cast<float>(sought.terms.surface.least_normal_cosine);
-  return std::min(normal.dot(seen) < agree ? away.norm() : std::abs(normal.dot(away)), most);
+  const std::optional<OnModel> on = find_on_model(sought, T_model_scene, row, most);
+  if (!on) return most;
+  return std::min(on->normals_agree ? std::abs(on->height) : on->away.norm(), most);
 }
 
 /// Rows of the scan that are left where one of two posed models is.
@@ -52,7 +43,7 @@ double residual_lead(const Sought& sought, const Eigen::Isometry3d& one,
   const Eigen::Isometry3f to_one = one.inverse().cast<float>(),
                           to_other = other.inverse().cast<float>();
   std::vector<Off> off(rows.size());
-  graph::parallel_for(off.size(), kGrain, [&](std::size_t i) {
+  graph::parallel_for(off.size(), kPointsGrain, [&](std::size_t i) {
     off[i] = {off_surface(sought, to_one, rows[i], near),
               off_surface(sought, to_other, rows[i], near)};
   });

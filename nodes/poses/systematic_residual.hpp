@@ -14,8 +14,8 @@ namespace posevote::poses {
 /// Points that are farther from the model's do not count, x tolerance.
 constexpr float kFarOff = 1.5F;
 
-/// What the distances of neighbours have in common, of the points that nothing explained yet and that
-/// lie before the model's surface and are turned as that is [m]; 0 where there are none. Takes a
+/// What the heights of neighbours over the model's surface have in common [m], of the points that
+/// nothing explained yet and that are turned as that is; 0 where there are none. Takes a
 /// search for each point, of at most about `points`.
 double systematic_residual(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
                            Eigen::Index points);
