@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/geometry/rotation.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -25,6 +26,13 @@ Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
 
 Eigen::Isometry3d turn_about(const Eigen::Vector3d& point, const Eigen::Quaterniond& turn) {
   return Eigen::Translation3d(point) * turn * Eigen::Translation3d(-point);
+}
+
+Eigen::Vector3d point_on_axis(const Eigen::Isometry3d& motion) {
+  const Eigen::Vector3d axis = Eigen::AngleAxisd(motion.linear()).axis();
+  const Eigen::Vector3d across = motion.translation() - axis.dot(motion.translation()) * axis;
+  const Eigen::Matrix3d moved = Eigen::Matrix3d::Identity() - motion.linear();
+  return moved.completeOrthogonalDecomposition().solve(across);
 }
 
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {

@@ -15,6 +15,9 @@ Eigen::Isometry3d make_pose(const std::array<double, 9>& rotation,
 /// `turn` (unit) about a point that stays where it is.
 Eigen::Isometry3d turn_about(const Eigen::Vector3d& point, const Eigen::Quaterniond& turn);
 
+/// The point nearest to the origin on the axis about which a motion turns; any slide along it aside.
+Eigen::Vector3d point_on_axis(const Eigen::Isometry3d& motion);
+
 /// Angle of the rotation that carries a into b, in [0, pi]; also right for tiny angles.
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 

@@ -105,8 +105,10 @@ void PairTable::add_turned(std::uint32_t bin, int turn, int most,
 }
 
 std::shared_ptr<const PairTable> index_pairs(const Model& model, float step) {
-  const Model& coarsest = model.coarser.empty() ? model : *model.coarser.back();
-  return std::make_shared<const PairTable>(coarsest.cloud, step, model.diagonal);
+  constexpr std::size_t kOctave = 2;  // coarse, so that thinning is quick; fine beside the step
+  const std::size_t coarser = std::min(kOctave, model.coarser.size());
+  const Cloud& cloud = coarser == 0 ? model.cloud : model.coarser[coarser - 1]->cloud;
+  return std::make_shared<const PairTable>(cloud, step, model.diagonal);
 }
 
 std::shared_ptr<const PairTable> index_rims(const Model& model, float step) {

@@ -81,15 +81,40 @@ std::optional<Ground::Extent> largest_plane(const Cloud& scan, float depth) {
 Ground::Ground(const Cloud& scan, float depth)
     : depth_(depth), viewpoint_(scan.view.origin), extent_(largest_plane(scan, depth)) {}
 
+std::optional<std::array<float, 2>> Ground::heights_of(
+    const Model& model, const Eigen::Isometry3f& T_scene_model) const {
+  if (!extent_ || extent_->radius <= model.diagonal / 2) return std::nullopt;
+  const Plane& plane = extent_->plane;
+  const Eigen::RowVectorXf heights =
+      (plane.normal().transpose() * T_scene_model.linear() * model.outline.hull).array() +
+      plane.signedDistance(T_scene_model.translation());
+  const std::array ends{heights.minCoeff(), heights.maxCoeff()};
+  if (ends[1] <= depth_) return std::nullopt;
+  return ends;
+}
+
+std::optional<float> Ground::depth_below(const Model& model,
+                                         const Eigen::Isometry3d& T_scene_model) const {
+  const auto heights = heights_of(model, T_scene_model.cast<float>());
+  if (!heights || heights->front() > depth_) return std::nullopt;
+  return std::max(0.0F, -heights->front() / depth_ - 1);
+}
+
+double Ground::lead_over(const Model& model, const Eigen::Isometry3d& one,
+                         const Eigen::Isometry3d& other) const {
+  const std::optional<float> of_one = depth_below(model, one), of_other = depth_below(model, other);
+  if (!of_one || !of_other || std::min(*of_one, *of_other) > 0) return 0;
+  return static_cast<double>(*of_other - *of_one);
+}
+
 double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
                             const geometry::RangeView& view) const {
-  if (!extent_ || extent_->radius <= model.diagonal / 2) return 0;
-  const Plane& plane = extent_->plane;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  const auto heights = heights_of(model, T);
+  if (!heights || heights->front() >= -depth_) return 0;
+  const Plane& plane = extent_->plane;
   const Eigen::RowVector3f up = plane.normal().transpose() * T.linear();
   const float height = plane.signedDistance(T.translation());
-  const Eigen::RowVectorXf heights = (up * model.outline.hull).array() + height;
-  if (heights.minCoeff() >= -depth_ || heights.maxCoeff() <= depth_) return 0;
   const geometry::Strewn rows(model.cloud.points.rows(), kSample);
   double inside = 0;
   Sights in_it;

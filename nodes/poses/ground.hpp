@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 
 #include "nodes/data/cloud.hpp"
@@ -28,6 +29,13 @@ class Ground {
   double share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
                       const geometry::RangeView& view) const;
 
+  /// Of two poses of a model at one place: how much deeper the other reaches into the ground on which
+  /// the one stands, in multiples of what its plane may be off; less than 0 where the other stands,
+  /// 0 where neither does, or both do. Whether the ground is seen beside the model is not asked: under
+  /// what stands on it, it is there.
+  double lead_over(const Model& model, const Eigen::Isometry3d& one,
+                   const Eigen::Isometry3d& other) const;
+
   using Plane = Eigen::Hyperplane<float, 3>;
   struct Extent {
     Plane plane;       ///< normal up, to the sensor
@@ -35,6 +43,16 @@ class Ground {
   };
 
  private:
+  /// The lowest and the highest point of a posed model over the plane [m]; none where there is no
+  /// ground for it.
+  std::optional<std::array<float, 2>> heights_of(const Model& model,
+                                                 const Eigen::Isometry3f& T_scene_model) const;
+
+  /// How far the posed model reaches below the plane, beyond what that may be off, in multiples of it;
+  /// 0 where it stands on it, and nothing where it does neither: it lies on other things.
+  std::optional<float> depth_below(const Model& model,
+                                   const Eigen::Isometry3d& T_scene_model) const;
+
   /// Lines of sight on which the ground was seen, or something deeper.
   struct Sights {
     float seen = 0, gone = 0;

@@ -8,6 +8,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/geometry/rotation.hpp"
 #include "nodes/poses/confidence.hpp"
+#include "nodes/poses/refinement.hpp"
 #include "nodes/poses/residual_lead.hpp"
 #include "nodes/poses/schedule.hpp"
 #include "nodes/poses/score.hpp"
@@ -26,16 +27,6 @@ Candidate twin_of(const Sought& sought, const Candidate& candidate, std::size_t 
   return twin;
 }
 
-Candidates make_twins(const Sought& sought, const Candidate& candidate) {
-  Candidates twins(sought.model.near_symmetries.items.size());
-  graph::parallel_for(twins.size(), 1, [&](std::size_t i) {
-    twins[i] = twin_of(sought, candidate, i);
-    judge(sought, twins[i], {{sought.terms.schedule.look_points}});
-  });
-  sort_by_rank(twins.begin(), twins.end());
-  return twins;
-}
-
 /// A lead, or odds, as far as what tells.
 double bounded(double lead, const TwinTerms& terms) {
   return std::clamp(lead, -terms.telling, terms.telling);
@@ -46,15 +37,39 @@ double scan_lead_over(const Sought& sought, const Candidate& origin, const Candi
   return residual_lead(sought, twin.T_scene_model, origin.T_scene_model);
 }
 
-/// By colours, by what both were judged by, and where they differ; none of them but colours counts
-/// beyond what tells, for each may err: a twin that reaches into a neighbour lies on its points. The
+/// As lead_over, of the ground: a mug's handle that is hidden in both poses does not reach into it.
+double ground_lead_over(const Sought& sought, const Candidate& origin, const Candidate& twin) {
+  return sought.scan.ground.lead_over(sought.model, twin.T_scene_model, origin.T_scene_model);
+}
+
+/// By their rank, but last those that reach into the ground on which the candidate stands. Of more
+/// than are refined the first steps of ICP tell which: a handle that is seen beside where a turn would
+/// have it speaks against that turn.
+Candidates make_twins(const Sought& sought, const Candidate& candidate) {
+  Candidates twins(sought.model.near_symmetries.items.size());
+  const bool many = std::ssize(twins) > sought.terms.schedule.finalists && sought.params.refine;
+  graph::parallel_for(twins.size(), 1, [&](std::size_t i) {
+    twins[i] = twin_of(sought, candidate, i);
+    if (many) take_first_steps(sought, twins[i]);
+    judge(sought, twins[i], {{sought.terms.schedule.look_points}});
+  });
+  sort_by_rank(twins.begin(), twins.end());
+  std::ranges::stable_partition(twins, [&](const Candidate& twin) {
+    return ground_lead_over(sought, candidate, twin) > -sought.terms.twins.telling;
+  });
+  return twins;
+}
+
+/// By colours, by what both were judged by, by the ground, and where they differ; none of them but
+/// colours counts beyond what tells, for each may err: a twin that reaches into a neighbour lies on its points. The
 /// scan's points, which take longest, are asked only where they might bring it above `needed`.
 double log_odds_over(const Sought& sought, const Candidate& origin, const Candidate& twin,
                      double needed) {
   const TwinTerms& terms = sought.terms.twins;
   const double judged = log_odds_of(twin.confidence) - log_odds_of(origin.confidence);
   const double odds = color_lead(twin.colors, origin.colors) + bounded(judged, terms) +
-                      log_odds_of_lead(lead_over(sought, origin, twin), terms);
+                      log_odds_of_lead(lead_over(sought, origin, twin), terms) +
+                      log_odds_of_lead(ground_lead_over(sought, origin, twin), terms);
   if (odds + log_odds_of_lead(terms.telling, terms) <= needed) return odds;
   return odds + log_odds_of_lead(scan_lead_over(sought, origin, twin), terms);
 }
@@ -90,7 +105,7 @@ double lead_of_all(const Sought& sought, const Candidate& candidate, Candidate t
   // Beside colours, whose places are apart, points that err alike must not count each.
   const double count_for_one = by_color != 0 ? sought.terms.color.err_alike : 1;
   return by_color + lead_over(sought, candidate, twin) / std::sqrt(count_for_one) +
-         scan_lead_over(sought, candidate, twin);
+         scan_lead_over(sought, candidate, twin) + ground_lead_over(sought, candidate, twin);
 }
 
 }  // namespace

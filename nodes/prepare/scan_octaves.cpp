@@ -3,9 +3,10 @@
 // the finest that the sensor can tell, and the next coarser one. What a sensor tells is measured
 // from the scan itself, where its surface is near: the points' spacing (geometry/sensor_noise.hpp)
 // and how far noise tilts the normals (geometry/normal_noise.hpp). An object whose octaves are all
-// finer than that is looked for at its coarsest: what is coarser than an eightieth of an object no
-// longer tells it, whatever the sensor. A library with no more octaves than are looked for leaves
-// no choice, and nothing is measured.
+// finer than that is looked for at its third and the one before: what is coarser than an eightieth of
+// an object hardly tells it, whatever the noise. Only where points are farther apart than that, coarser
+// ones serve: those of which the last is not finer than the spacing. A library with no more octaves
+// than are looked for leaves no choice, and nothing is measured.
 //
 //   scan_octaves: {in: [scan, library], out: [scale, octaves], radii: 2}
 #include <algorithm>
@@ -34,8 +35,16 @@ struct Params {
   double finest = 0;
   double spacings = 0.6;
   double tilt = 3;
+  double apart = 1;
   double near = 0.25;
+  int noisy = 3;
   int radii = 2;
+};
+
+/// What the sensor resolves, by its noise and its points' spacing, and that spacing [m]; 0 where
+/// nothing was measured.
+struct Resolved {
+  double finest = 0, spacing = 0;
 };
 
 constexpr float kWidth = 6;  // x resolution: what a normal sees (estimate_normals.radius: 3)
@@ -66,13 +75,13 @@ void warn_of(const graph::FrameContext& context, double spacing, double tilt, do
   if (text[0] != '\0') context.warn(text);
 }
 
-/// What the sensor resolves [m]; more than `coarsest` where it does not tell sooner. `octaves`:
-/// those of the objects, ascending.
-double finest_resolution(const Scan& scan, const std::vector<LibraryOctave>& octaves,
-                         const graph::FrameContext& context, const Params& params) {
-  if (params.finest > 0) return params.finest;
+/// More than the coarsest octave where the sensor does not tell sooner. `octaves`: those of the
+/// objects, ascending.
+Resolved measure_resolution(const Scan& scan, const std::vector<LibraryOctave>& octaves,
+                            const graph::FrameContext& context, const Params& params) {
+  if (params.finest > 0) return {params.finest};
   const geometry::SensorNoise noise = geometry::measure_noise(scan.points, scan.view.origin);
-  if (noise.ranges.empty()) return 0;
+  if (noise.ranges.empty()) return {};
   const float range = noise.ranges[static_cast<std::size_t>(
       params.near * static_cast<double>(noise.ranges.size() - 1))];
   const std::vector<std::uint32_t> rows = near_rows(scan, range);
@@ -100,14 +109,22 @@ double finest_resolution(const Scan& scan, const std::vector<LibraryOctave>& oct
   context.tell("normal_tilt_deg", {tilt / kDegree});
   context.tell("resolution_m", {resolution});
   if (resolution >= coarsest) warn_of(context, spacing, tilt, coarsest, params);
-  return resolution;
+  return {resolution, spacing};
 }
 
 /// The scales at which an object is looked for: from the finest that is not too fine on.
-void add_scales_of(const Model& model, double finest, std::size_t most, std::set<float>& scales) {
+void add_scales_of(const Model& model, const Resolved& resolved, const Params& params,
+                   std::set<float>& scales) {
   const auto octaves = octaves_of(model.features);
+  const auto most = static_cast<std::size_t>(params.radii);
+  const auto resolution = [&](std::size_t i) { return static_cast<double>(octaves[i].resolution); };
+  const std::size_t noisy =
+      params.finest > 0 ? octaves.size() : static_cast<std::size_t>(params.noisy);
   std::size_t first = 0;
-  while (first + most < octaves.size() && octaves[first].resolution < finest) ++first;
+  while (first + most < std::min(noisy, octaves.size()) && resolution(first) < resolved.finest)
+    ++first;
+  const double apart = params.apart * resolved.spacing;
+  while (first + most < octaves.size() && resolution(first + most - 1) < apart) ++first;
   for (std::size_t i = first; i < std::min(octaves.size(), first + most); ++i)
     scales.insert(octaves[i].resolution);
 }
@@ -117,10 +134,10 @@ std::tuple<Scale, PerObject<Scale>> scan_octaves(const Scan& scan, const ModelLi
                                                  const Params& params) {
   if (library.octaves.empty()) throw std::runtime_error("the model library has no index");
   const bool has_choice = library.octaves.size() > static_cast<std::size_t>(params.radii);
-  const double finest = has_choice ? finest_resolution(scan, library.octaves, context, params) : 0;
+  const Resolved resolved =
+      has_choice ? measure_resolution(scan, library.octaves, context, params) : Resolved{};
   std::set<float> scales;
-  for (const auto& model : library.models)
-    add_scales_of(*model, finest, static_cast<std::size_t>(params.radii), scales);
+  for (const auto& model : library.models) add_scales_of(*model, resolved, params, scales);
   PerObject<Scale> octaves;
   for (const float resolution : scales)
     octaves.slots.push_back(std::make_shared<const Scale>(Scale{resolution}));
@@ -144,6 +161,15 @@ const auto registered =
                "And so coarse that noise tilts its normals by no more than this, a standard "
                "deviation.",
                graph::in_range(0, 90))
+        .param(
+            "apart", &Params::apart, "x spacing",
+            "The coarsest octave at which an object is looked for is at least this, if it has one "
+            "that is.",
+            graph::at_least(0))
+        .param("noisy", &Params::noisy, "",
+               "Of so many of an object's octaves, the finest, noise chooses; coarser ones are for "
+               "scans whose points are farther apart than these.",
+               graph::in_range(1, 12))
         .param("radii", &Params::radii, "",
                "Octaves at which each object is looked for, at most: descriptors of so many radii.",
                graph::in_range(1, 8))

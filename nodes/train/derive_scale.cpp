@@ -14,7 +14,7 @@
 //
 // Slot k n + i of both outputs is octave k of model i of n; the meshes are the same for all k.
 //
-//   derive_scale: {in: model_meshes, out: [octave_meshes, octaves], fraction: 0.0085, octaves: 3}
+//   derive_scale: {in: model_meshes, out: [octave_meshes, octaves], fraction: 0.0085, octaves: 4}
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ struct Params {
   double fraction = 0.0085;
   double finest = 0;
   bool own = false;
-  int octaves = 3;
+  int octaves = 4;
   double step = std::numbers::sqrt2;
 };
 

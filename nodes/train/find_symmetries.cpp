@@ -43,6 +43,7 @@ struct Params {
   double fine = 2;
   double round = 0.99;
   double symmetric = 0.999;
+  double nearly_round = 0.8;
   double same_motion = 20;
 };
 
@@ -111,9 +112,11 @@ class Judge {
         surface_(cloud, false, fine),
         fine_(fine) {}
 
-  Rated refine(const Rated& start, float near) const {
-    const Isometry3d motion = geometry::icp(sample_, surface_, start.motion, {40, 2 * near, fine_});
+  Rated rate(const Isometry3d& motion) const {
     return {motion, overlap_of(sample_, surface_, motion, fine_)};
+  }
+  Rated refine(const Rated& start, float near) const {
+    return rate(geometry::icp(sample_, surface_, start.motion, {40, 2 * near, fine_}));
   }
   /// Whether a motion carries the model onto itself. A notch of a hundredth of the surface tells
   /// which way round an integrated circuit lies.
@@ -174,22 +177,51 @@ bool look_same(const Judge& judge, const Isometry3d& a, const Isometry3d& b,
   return is_about_axis && judge.is_about_exact(between);
 }
 
+/// A motion by that angle about the axis of another one [rad].
+Isometry3d turned_by(double angle, const Isometry3d& like) {
+  const Eigen::AngleAxisd turn(angle, Eigen::AngleAxisd(like.linear()).axis());
+  return geometry::turn_about(geometry::point_on_axis(like), Eigen::Quaterniond(turn));
+}
+
+/// Even turns about the axis of a motion, where most of the body is round about it: but for a handle,
+/// which may be hidden wherever it is. None of a body that is not. `near` [m]: what ICP overcomes.
+std::vector<Isometry3d> turns_of_round(const Judge& judge, const Isometry3d& motion, float near,
+                                       const Params& params) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Isometry3d half = judge.refine({turned_by(kTurn / 2, motion)}, near).motion;
+  if (Eigen::AngleAxisd(half.linear()).angle() < kTurn / 4) return {};  // back where it came from
+  const auto count = static_cast<int>(360 / params.same_motion);
+  std::vector<Isometry3d> turns;
+  for (int i = 1; i < count; ++i) {
+    turns.push_back(turned_by(kTurn * i / count, half));
+    if (judge.rate(turns.back()).overlap < params.nearly_round) return {};
+  }
+  return turns;
+}
+
 NearSymmetries find_near(const Cloud& cloud, const Judge& judge, const std::vector<Rated>& motions,
-                         const Symmetries& symmetries, const Params& params) {
+                         const Symmetries& symmetries, float near, const Params& params) {
   NearSymmetries found;
   const auto same = [&](const Isometry3d& a, const Isometry3d& b) {
     return look_same(judge, a, b, symmetries, params.same_motion);
   };
+  const auto known = [&](const Isometry3d& motion) {
+    return same(Isometry3d::Identity(), motion) ||
+           std::any_of(found.items.begin(), found.items.end(),
+                       [&](const NearSymmetry& other) { return same(other.motion, motion); });
+  };
+  const auto add = [&](const Isometry3d& motion) {
+    found.items.push_back(
+        {motion, judge.carried_off(cloud, motion), judge.carried_off(cloud, motion.inverse())});
+  };
+  auto most = static_cast<std::size_t>(params.most);
   for (const Rated& one : motions) {
-    if (one.overlap < params.least || found.items.size() == static_cast<std::size_t>(params.most))
-      break;
-    const bool known =
-        same(Isometry3d::Identity(), one.motion) ||
-        std::any_of(found.items.begin(), found.items.end(),
-                    [&](const NearSymmetry& other) { return same(other.motion, one.motion); });
-    if (!known)
-      found.items.push_back({one.motion, judge.carried_off(cloud, one.motion),
-                             judge.carried_off(cloud, one.motion.inverse())});
+    if (one.overlap < params.least || found.items.size() == most) break;
+    if (known(one.motion)) continue;
+    const std::vector<Isometry3d> turns = turns_of_round(judge, one.motion, near, params);
+    std::ranges::for_each(turns, add);
+    if (turns.empty()) add(one.motion);
+    most += turns.size();
   }
   return found;
 }
@@ -207,7 +239,7 @@ std::tuple<Symmetries, NearSymmetries> find_symmetries(const Cloud& cloud, const
                       [&](std::size_t i) { motions[i] = judge.refine(motions[i], near); });
   sort_by_overlap(motions);
   const Symmetries exact = find_exact(cloud, judge, motions, params);
-  return {exact, find_near(cloud, judge, motions, exact, params)};
+  return {exact, find_near(cloud, judge, motions, exact, near, params)};
 }
 
 const auto registered =
@@ -244,11 +276,16 @@ const auto registered =
                       "Share of points that stay on the surface at all turns about an axis from "
                       "which on an object is round.",
                       graph::in_range(0, 1))
+        .expert_param(
+            "nearly_round", &Params::nearly_round, "",
+            "Share of the surface that lies on it at any turn about an axis from which on "
+            "these turns are looked at evenly, as of a mug whose handle is hidden.",
+            graph::in_range(0, 1))
         .expert_param("symmetric", &Params::symmetric, "",
                       "And at other motions, from which on nothing differs; the rest is sampling.",
                       graph::in_range(0, 1))
         .expert_param("same_motion", &Params::same_motion, "deg",
-                      "Motions that differ by less are one.", graph::in_range(0, 180));
+                      "Motions that differ by less are one.", graph::in_range(1, 180));
 
 }  // namespace
 }  // namespace posevote::train

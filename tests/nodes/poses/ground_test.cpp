@@ -51,6 +51,26 @@ TEST_CASE("what stands on the ground is not in it, what is put lower is", "[pose
   CHECK(share(scan, 0.1F, 1) == share(scan, 0, 1));
 }
 
+TEST_CASE("of two poses the one that reaches into the ground on which the other stands is behind",
+          "[poses]") {
+  const poses::Ground ground(table(), kDepth);
+  const auto at = [](double height, double turn = 0) {
+    Eigen::Isometry3d T(Eigen::Translation3d(0, 0, 1 - height));
+    T.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitX()));
+    return T;
+  };
+  const double half = 0.5 * double(kEdge), depth = (std::sqrt(2.0) - 1) * half / double(kDepth);
+  const auto lead = [&](const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
+    return ground.lead_over(cube(), one, other);
+  };
+  CHECK(lead(at(half), at(half, M_PI / 4)) == Approx(depth - 1).epsilon(0.05));
+  CHECK(lead(at(half, M_PI / 4), at(half)) == Approx(1 - depth).epsilon(0.05));
+  CHECK(lead(at(half), at(half, M_PI / 2)) == 0);
+  CHECK(lead(at(half), at(half + 0.8 * double(kDepth), M_PI / 2)) == 0);
+  CHECK(lead(at(2 * half), at(half, M_PI / 4)) == 0);  // on something else
+  CHECK(lead(at(0), at(0, M_PI / 4)) == 0);            // in something lower, or not of this ground
+}
+
 TEST_CASE("the ground says nothing where it is not seen", "[poses]") {
   CHECK(share(table(), 0.4F, 1) == 0);           // beside the table
   CHECK(share(table(), 0, 1 + 2 * kEdge) == 0);  // below it

@@ -6,6 +6,7 @@
 #include "nodes/poses/confidence.hpp"
 #include "nodes/poses/score.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
+#include "tests/support/box_cloud.hpp"
 
 namespace posevote::twins_test {
 
@@ -113,6 +114,36 @@ TEST_CASE("the scan's points decide, too, where twins differ", "[poses]") {
   CHECK(poses::look_alikes(setting.body.sought(), setting.right).empty());
   setting.body.params.terms.twins.telling = 0.5;  // too little against a deviation of confidence
   CHECK_FALSE(setting.chooses_right());
+}
+
+TEST_CASE("of two look-alikes one does not reach into the ground on which the other stands",
+          "[poses]") {
+  Mistaken setting;
+  setting.differ({}, {});
+  setting.wrong.confidence = 0;
+  setting.wrong.confidence =
+      poses::probability_of(1 + poses::log_odds_of(setting.chosen().confidence));
+  CHECK_FALSE(setting.chooses_right());
+  Mistaken mirrored;
+  mirrored.motion = setting.motion.inverse();
+  mirrored.differ({}, {});
+  REQUIRE(poses::look_alikes(mirrored.body.sought(), mirrored.right).size() == 1);
+  // A plane on whose one side the body lies as it is, but not as its twin.
+  const auto lowest = [&](const poses::Candidate& one) {
+    const Eigen::Isometry3f T = one.T_scene_model.cast<float>();
+    return (T * setting.body.model.outline.hull).row(1).minCoeff();
+  };
+  std::vector<Eigen::RowVector3f> points, normals;
+  test::add_rectangle(points, normals, {0, lowest(setting.right), 0.8F}, {0, 0, 1}, {1, 0, 0},
+                      kResolution);
+  const Cloud plane = geometry::cloud_of(points, normals);
+  const float depth = 0.25F * (lowest(setting.right) - lowest(setting.wrong));
+  REQUIRE(depth > 0);
+  for (Mistaken* one : {&setting, &mirrored}) one->body.scan.ground = poses::Ground(plane, depth);
+  CHECK(setting.chooses_right());
+  const auto others = poses::look_alikes(mirrored.body.sought(), mirrored.right);
+  REQUIRE(others.size() == 1);
+  CHECK(others[0].probability == Approx(1 / (1 + std::exp(3.0))).epsilon(0.1));
 }
 
 TEST_CASE("a twin whose place is taken does not compete", "[poses]") {

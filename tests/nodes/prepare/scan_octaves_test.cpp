@@ -145,14 +145,27 @@ TEST_CASE("a scan has the finest octaves of each object that its sensor can tell
   using Octaves = std::vector<float>;
   CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}) == Octaves{0.001F, 0.002F});
   CHECK(octaves_of_scan(wall(1, 0.0025F, 0), {fine}) == Octaves{0.002F, 0.004F});
-  CHECK(octaves_of_scan(wall(1, 0.002F, 0.002F), {fine}) == Octaves{0.004F, 0.008F});
+  CHECK(octaves_of_scan(wall(1, 0.002F, 0.002F), {fine}) == Octaves{0.002F, 0.004F});
+  CHECK(octaves_of_scan(wall(1, 0.002F, 0.002F), {fine}, {{"noisy", "4"}}) ==
+        Octaves{0.004F, 0.008F});
   CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}, {{"radii", "3"}}) ==
         Octaves{0.001F, 0.002F, 0.004F});
   CHECK(octaves_of_scan(wall(1, 0.0005F, 0), {fine}, {{"finest", "0.003"}}) ==
         Octaves{0.004F, 0.008F});
-  // The coarsest where nothing is good enough.
+  // The coarsest that noise may choose where nothing is good enough.
   CHECK(octaves_of_scan(wall(1, 0.0005F, 1e-4F), {fine}, {{"tilt", "0"}}) ==
-        Octaves{0.004F, 0.008F});
+        Octaves{0.002F, 0.004F});
+}
+
+TEST_CASE("an octave coarser than noise may choose is for points that lie farther apart",
+          "[prepare]") {
+  const std::vector<float> fine{0.001F, 0.002F, 0.004F, 0.008F, 0.016F};
+  using Octaves = std::vector<float>;
+  CHECK(octaves_of_scan(wall(1, 0.0035F, 0), {fine}) == Octaves{0.002F, 0.004F});
+  CHECK(octaves_of_scan(wall(1, 0.005F, 0), {fine}) == Octaves{0.004F, 0.008F});
+  CHECK(octaves_of_scan(wall(1, 0.005F, 0), {fine}, {{"radii", "3"}}) ==
+        Octaves{0.002F, 0.004F, 0.008F});
+  CHECK(octaves_of_scan(wall(1, 0.04F, 0), {fine}) == Octaves{0.008F, 0.016F});
 }
 
 TEST_CASE("noise that neighbours share counts, however smooth it is", "[prepare]") {

@@ -33,7 +33,7 @@ Derived derive(const std::vector<Mesh>& models,
 float derived(const std::vector<Mesh>& models,
               const std::map<std::string, std::string>& params = {}) {
   const std::vector<float> all = derive(models, params).resolutions;
-  REQUIRE(all.size() == 3 * models.size());
+  REQUIRE(all.size() == 4 * models.size());
   for (std::size_t i = 0; i < models.size(); ++i) CHECK(all[i] == all[0]);
   return all[0];
 }
@@ -74,7 +74,7 @@ TEST_CASE("octaves grow by steps, all models at one before the next", "[prepare]
   CHECK(all.meshes[4].points == a.points);
   CHECK(all.meshes[5].points == b.points);
   const std::vector<float> half = derive({a}, {{"resolution", "0.001"}}).resolutions;
-  REQUIRE(half.size() == 3);
+  REQUIRE(half.size() == 4);
   CHECK(half[1] == Approx(0.001 * std::sqrt(2)));
   CHECK(half[2] == Approx(0.002));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -85,6 +86,18 @@ Cloud cup(bool both_ends) {
   return cloud;
 }
 
+/// With a bar beside the axis of a cup, at x [m]: four points wide, and so many rows of them up from z.
+Cloud with_bar(Cloud cup, float z, Eigen::Index rows, float x = 0.23F) {
+  const Eigen::Index body = cup.points.rows(), bar = 4 * rows;
+  cup.points.conservativeResize(body + bar, 3), cup.normals.conservativeResize(body + bar, 3);
+  for (Eigen::Index i = 0; i < bar; ++i) {
+    cup.points.row(body + i) << x, kStep * static_cast<float>(i % 4),
+        z + kStep * static_cast<float>(i / 4);
+    cup.normals.row(body + i) << 1, 0, 0;
+  }
+  return cup;
+}
+
 std::vector<NearSymmetry> symmetries_of(const Cloud& cloud,
                                         const std::map<std::string, std::string>& values = {}) {
   return near_of(run_outputs("find_symmetries", values, cloud, Scale{kStep})).items;
@@ -155,20 +168,35 @@ TEST_CASE("a pin of half a hundredth of the surface tells which way round a box 
 }
 
 TEST_CASE("a can with such a pin is still round", "[match]") {
-  Cloud can = cup(true);
-  const Eigen::Index body = can.points.rows(), pin = 8;
-  can.points.conservativeResize(body + pin, 3), can.normals.conservativeResize(body + pin, 3);
-  for (Eigen::Index i = 0; i < pin; ++i) {
-    can.points.row(body + i) << 0.23F, kStep * static_cast<float>(i % 4),
-        0.1F + kStep * static_cast<float>(3 + i / 4);
-    can.normals.row(body + i) << 1, 0, 0;
-  }
+  const Cloud can = with_bar(cup(true), 0.1F + 3 * kStep, 2);
   const Symmetries found = exact_symmetries_of(can);
   CHECK(found.axes.size() == 1);
   CHECK(found.turns.size() == 1);  // but does not stand on its head
   const auto near = symmetries_of(can);
   REQUIRE(near.size() == 1);
   CHECK(std::abs(Eigen::AngleAxisd(near[0].motion.linear()).axis().z()) < 0.05);
+}
+
+TEST_CASE("of a cup with a handle all turns about its axis are looked at, evenly", "[match]") {
+  const Cloud mug = with_bar(cup(false), 0.01F, 27, 0.26F);
+  REQUIRE(exact_symmetries_of(mug).axes.empty());
+  auto near = symmetries_of(mug);
+  REQUIRE(near.size() >= 17);
+  near.resize(17);  // others stand it on its head
+  std::vector<double> angles;
+  for (const auto& [motion, carried_off, uncovered] : near) {
+    const Eigen::AngleAxisd turn(motion.linear());
+    CHECK(std::abs(turn.axis().z()) > 0.9999);
+    const bool is_down = turn.axis().z() < 0;
+    angles.push_back(is_down ? 2 * std::numbers::pi - turn.angle() : turn.angle());
+    const Eigen::Vector3d on_axis(0.2, 0, 0.05);
+    CHECK((motion * on_axis - on_axis).norm() < 0.001);
+    CHECK(carried_off.size() >= 4 * 27 * 2 / 3);  // the handle
+  }
+  std::ranges::sort(angles);
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    CHECK(angles[i] == Approx(2 * std::numbers::pi * static_cast<double>(i + 1) / 18));
+  CHECK(symmetries_of(mug, {{"nearly_round", "1"}}).size() <= 12);
 }
 
 TEST_CASE("a cube is itself after 24 turns", "[match]") {
