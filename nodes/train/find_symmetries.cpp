@@ -188,6 +188,7 @@ Isometry3d turned_by(double angle, const Isometry3d& like) {
 std::vector<Isometry3d> turns_of_round(const Judge& judge, const Isometry3d& motion, float near,
                                        const Params& params) {
   constexpr double kTurn = 2 * std::numbers::pi;
+  if (params.same_motion == 0) return {};
   const Isometry3d half = judge.refine({turned_by(kTurn / 2, motion)}, near).motion;
   if (Eigen::AngleAxisd(half.linear()).angle() < kTurn / 4) return {};  // back where it came from
   const auto count = static_cast<int>(360 / params.same_motion);
@@ -285,7 +286,7 @@ const auto registered =
                       "And at other motions, from which on nothing differs; the rest is sampling.",
                       graph::in_range(0, 1))
         .expert_param("same_motion", &Params::same_motion, "deg",
-                      "Motions that differ by less are one.", graph::in_range(1, 180));
+                      "Motions that differ by less are one.", graph::in_range(0, 180));
 
 }  // namespace
 }  // namespace posevote::train
