@@ -61,8 +61,9 @@ Candidates make_twins(const Sought& sought, const Candidate& candidate) {
 }
 
 /// By colours, by what both were judged by, by the ground, and where they differ; none of them but
-/// colours counts beyond what tells, for each may err: a twin that reaches into a neighbour lies on its points. The
-/// scan's points, which take longest, are asked only where they might bring it above `needed`.
+/// colours counts beyond what tells, for each may err: a twin that reaches into a neighbour lies on
+/// its points. The scan's points, which take longest, are asked only where they might bring it above
+/// `needed`.
 double log_odds_over(const Sought& sought, const Candidate& origin, const Candidate& twin,
                      double needed) {
   const TwinTerms& terms = sought.terms.twins;

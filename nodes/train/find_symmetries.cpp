@@ -184,7 +184,8 @@ Isometry3d turned_by(double angle, const Isometry3d& like) {
 }
 
 /// Even turns about the axis of a motion, where most of the body is round about it: but for a handle,
-/// which may be hidden wherever it is. None of a body that is not. `near` [m]: what ICP overcomes.
+/// which may be hidden wherever it is. None of a body that is not, nor those that are exact: a gear's.
+/// `near` [m]: what ICP overcomes.
 std::vector<Isometry3d> turns_of_round(const Judge& judge, const Isometry3d& motion, float near,
                                        const Params& params) {
   constexpr double kTurn = 2 * std::numbers::pi;
@@ -194,8 +195,9 @@ std::vector<Isometry3d> turns_of_round(const Judge& judge, const Isometry3d& mot
   const auto count = static_cast<int>(360 / params.same_motion);
   std::vector<Isometry3d> turns;
   for (int i = 1; i < count; ++i) {
-    turns.push_back(turned_by(kTurn * i / count, half));
-    if (judge.rate(turns.back()).overlap < params.nearly_round) return {};
+    const Isometry3d turn = turned_by(kTurn * i / count, half);
+    if (judge.rate(turn).overlap < params.nearly_round) return {};
+    if (!judge.is_exact(turn)) turns.push_back(turn);
   }
   return turns;
 }
