@@ -81,23 +81,22 @@ std::optional<Ground::Extent> largest_plane(const Cloud& scan, float depth) {
 Ground::Ground(const Cloud& scan, float depth)
     : depth_(depth), viewpoint_(scan.view.origin), extent_(largest_plane(scan, depth)) {}
 
-std::optional<std::array<float, 2>> Ground::heights_of(
-    const Model& model, const Eigen::Isometry3f& T_scene_model) const {
+std::optional<float> Ground::lowest_of(const Model& model,
+                                       const Eigen::Isometry3f& T_scene_model) const {
   if (!extent_ || extent_->radius <= model.diagonal / 2) return std::nullopt;
   const Plane& plane = extent_->plane;
   const Eigen::RowVectorXf heights =
       (plane.normal().transpose() * T_scene_model.linear() * model.outline.hull).array() +
       plane.signedDistance(T_scene_model.translation());
-  const std::array ends{heights.minCoeff(), heights.maxCoeff()};
-  if (ends[1] <= depth_) return std::nullopt;
-  return ends;
+  if (heights.maxCoeff() <= depth_) return std::nullopt;
+  return heights.minCoeff();
 }
 
 std::optional<float> Ground::depth_below(const Model& model,
                                          const Eigen::Isometry3d& T_scene_model) const {
-  const auto heights = heights_of(model, T_scene_model.cast<float>());
-  if (!heights || heights->front() > depth_) return std::nullopt;
-  return std::max(0.0F, -heights->front() / depth_ - 1);
+  const std::optional<float> lowest = lowest_of(model, T_scene_model.cast<float>());
+  if (!lowest || *lowest > depth_) return std::nullopt;
+  return std::max(0.0F, -*lowest / depth_ - 1);
 }
 
 double Ground::lead_over(const Model& model, const Eigen::Isometry3d& one,
@@ -110,8 +109,8 @@ double Ground::lead_over(const Model& model, const Eigen::Isometry3d& one,
 double Ground::share_inside(const Model& model, const Eigen::Isometry3d& T_scene_model,
                             const geometry::RangeView& view) const {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  const auto heights = heights_of(model, T);
-  if (!heights || heights->front() >= -depth_) return 0;
+  const std::optional<float> lowest = lowest_of(model, T);
+  if (!lowest || *lowest >= -depth_) return 0;
   const Plane& plane = extent_->plane;
   const Eigen::RowVector3f up = plane.normal().transpose() * T.linear();
   const float height = plane.signedDistance(T.translation());

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <optional>
 
 #include "nodes/data/cloud.hpp"
@@ -43,10 +42,9 @@ class Ground {
   };
 
  private:
-  /// The lowest and the highest point of a posed model over the plane [m]; none where there is no
-  /// ground for it.
-  std::optional<std::array<float, 2>> heights_of(const Model& model,
-                                                 const Eigen::Isometry3f& T_scene_model) const;
+  /// The height of a posed model's lowest point over the plane [m]; none where there is no ground
+  /// for it.
+  std::optional<float> lowest_of(const Model& model, const Eigen::Isometry3f& T_scene_model) const;
 
   /// How far the posed model reaches below the plane, beyond what that may be off, in multiples of it;
   /// 0 where it stands on it, and nothing where it does neither: it lies on other things.

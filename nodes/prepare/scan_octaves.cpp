@@ -3,10 +3,10 @@
 // the finest that the sensor can tell, and the next coarser one. What a sensor tells is measured
 // from the scan itself, where its surface is near: the points' spacing (geometry/sensor_noise.hpp)
 // and how far noise tilts the normals (geometry/normal_noise.hpp). An object whose octaves are all
-// finer than that is looked for at its third and the one before: what is coarser than an eightieth of
-// an object hardly tells it, whatever the noise. Only where points are farther apart than that, coarser
-// ones serve: those of which the last is not finer than the spacing. A library with no more octaves
-// than are looked for leaves no choice, and nothing is measured.
+// finer than that is looked for at its third and the one before: what is coarser than an eightieth
+// of an object hardly tells it, whatever the noise. Only where points are farther apart than that,
+// coarser ones serve: those of which the last is not finer than the spacing. A library with no more
+// octaves than are looked for leaves no choice, and nothing is measured.
 //
 //   scan_octaves: {in: [scan, library], out: [scale, octaves], radii: 2}
 #include <algorithm>
@@ -118,11 +118,11 @@ void add_scales_of(const Model& model, const Resolved& resolved, const Params& p
   const auto octaves = octaves_of(model.features);
   const auto most = static_cast<std::size_t>(params.radii);
   const auto resolution = [&](std::size_t i) { return static_cast<double>(octaves[i].resolution); };
-  const std::size_t noisy =
-      params.finest > 0 ? octaves.size() : static_cast<std::size_t>(params.noisy);
+  const std::size_t noisy = params.finest > 0
+                                ? octaves.size()
+                                : std::min(octaves.size(), static_cast<std::size_t>(params.noisy));
   std::size_t first = 0;
-  while (first + most < std::min(noisy, octaves.size()) && resolution(first) < resolved.finest)
-    ++first;
+  while (first + most < noisy && resolution(first) < resolved.finest) ++first;
   const double apart = params.apart * resolved.spacing;
   while (first + most < octaves.size() && resolution(first + most - 1) < apart) ++first;
   for (std::size_t i = first; i < std::min(octaves.size(), first + most); ++i)

@@ -9,8 +9,9 @@
 // objects, the first and the second are what suits: finer costs time and tells no more, and coarser
 // loses small objects. The third is there for its wider descriptors, whose votes count together with
 // those of the next finer: local ones hold in clutter, wide ones tell flat and large objects. The
-// fourth is for scans whose points are farther apart than that. With `own`, an object's finest follows from its own bounding box, rounded to a grid of
-// half octaves, so that objects of like size share it.
+// fourth is for scans whose points are farther apart than that. With `own`, an object's finest
+// follows from its own bounding box, rounded to a grid of half octaves, so that objects of like size
+// share it.
 //
 // Slot k n + i of both outputs is octave k of model i of n; the meshes are the same for all k.
 //
