@@ -51,8 +51,8 @@ struct Fit {
   double inlier_fraction = 0;               ///< supported / facing
   double rmse = 0;                          ///< point to plane, over the supported [m]
   /// What patches of the scan lie off by, not noise, where the pose is looked at closely [m]
-  /// (systematic_residual.hpp); not of measure_fit.
-  double systematic = 0;
+  /// (systematic_residual.hpp), and what noise alone may leave there (Shared); not of measure_fit.
+  double systematic = 0, systematic_doubt = 0;
   double relief = 0;      ///< of the supported: 0 if all normals are parallel, 2/3 at most
   double stands_for = 1;  ///< so many of the model's points stand for each that was judged
 };

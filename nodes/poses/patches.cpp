@@ -34,16 +34,18 @@ std::vector<Patch> patches_of(const Eigen::Matrix3Xf& points, const Eigen::Vecto
 
 }  // namespace
 
-double shared_deviation(const Eigen::Matrix3Xf& points, const Eigen::VectorXd& residuals,
+Shared shared_deviation(const Eigen::Matrix3Xf& points, const Eigen::VectorXd& residuals,
                         float side) {
-  if (points.cols() == 0) return 0;
+  if (points.cols() == 0) return {};
   const std::vector<Patch> patches = patches_of(points, residuals, side);
   double between = 0;  // sums of squares
   for (const Patch& patch : patches) between += patch.sum * patch.sum / patch.count;
   const auto all = static_cast<double>(points.cols()), few = static_cast<double>(patches.size());
-  if (all <= few) return 0;
+  if (all <= few) return {};
   const double noise = (residuals.squaredNorm() - between) / (all - few);
-  return std::sqrt(std::max(0.0, (between - few * noise) / all));
+  // of `between` noise has the variance 2 few noise^2, of few * noise few / (all - few) times that
+  const double error = noise * std::sqrt(2 * few / (all * (all - few)));
+  return {std::sqrt(std::max(0.0, (between - few * noise) / all)), std::sqrt(error)};
 }
 
 }  // namespace posevote::poses

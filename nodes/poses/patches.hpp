@@ -9,11 +9,16 @@
 
 namespace posevote::poses {
 
-/// One deviation of what the residuals of a patch have in common [as the residuals], estimated
-/// without what noise leaves in the means of patches (one-way analysis of variance with random
-/// effects; Searle, Casella, McCulloch 1992, section 3.6, about zero). 0 where noise explains it
-/// all, or no patch has two points. `points`: 3 x n; patches are cubes of this `side`.
-double shared_deviation(const Eigen::Matrix3Xf& points, const Eigen::VectorXd& residuals,
+/// What the residuals of a patch have in common [as the residuals].
+struct Shared {
+  double deviation = 0;  ///< one; 0 where noise explains it all
+  double doubt = 0;      ///< what noise alone may leave: squared, the standard error of its square
+};
+
+/// Estimated without what noise leaves in the means of patches (one-way analysis of variance with
+/// random effects; Searle, Casella, McCulloch 1992, section 3.6, about zero). Nothing where no patch
+/// has two points. `points`: 3 x n; patches are cubes of this `side`.
+Shared shared_deviation(const Eigen::Matrix3Xf& points, const Eigen::VectorXd& residuals,
                         float side);
 
 }  // namespace posevote::poses

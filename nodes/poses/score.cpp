@@ -39,7 +39,8 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
                               sought.scan.view, T_scene_model, static_cast<float>(tolerance),
                               look.sampling, sought.terms.fit);
         if (!look.sampling.closely) return answer_at(sought, T_scene_model, tolerance, fit);
-        fit.systematic = systematic_residual(sought, T_scene_model, look.sampling.points);
+        const Shared left = systematic_residual(sought, T_scene_model, look.sampling.points);
+        fit.systematic = left.deviation, fit.systematic_doubt = left.doubt;
         return answer_at(sought, T_scene_model, tolerance * static_cast<double>(kFarOff), fit);
       });
 }

@@ -41,7 +41,7 @@ float side_of_patch(const Model& model) {
 
 }  // namespace
 
-double systematic_residual(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
+Shared systematic_residual(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
                            Eigen::Index points) {
   const std::vector<Eigen::Index> rows =
       rows_near(sought, posed_center(T_scene_model, sought.model.center),

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "nodes/poses/patches.hpp"
 #include "nodes/poses/sought.hpp"
 
 namespace posevote::poses {
@@ -14,10 +15,10 @@ namespace posevote::poses {
 /// Points that are farther from the model's do not count, x tolerance.
 constexpr float kFarOff = 1.5F;
 
-/// What the heights of neighbours over the model's surface have in common [m], of the points that
+/// What the heights of neighbours over the model's surface have in common, of the points that
 /// nothing explained yet and that are turned as that is; 0 where there are none. Takes a
 /// search for each point, of at most about `points`.
-double systematic_residual(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
+Shared systematic_residual(const Sought& sought, const Eigen::Isometry3d& T_scene_model,
                            Eigen::Index points);
 
 }  // namespace posevote::poses

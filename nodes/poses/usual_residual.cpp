@@ -19,7 +19,8 @@ double UsualResidual::exactness(const Fit& fit, double range, const Tolerated& t
   if (!(weight_ > 0)) return 1;
   const double farther = range_ > 0 ? std::max(1.0, range * weight_ / range_) : 1;
   const double times = tolerated.times * farther * farther;
-  const double any_case = tolerated.residual * tolerated.residual;
+  const double any_case =
+      tolerated.residual * tolerated.residual + fit.systematic_doubt * fit.systematic_doubt;
   const double most = times * times * squared_ / weight_ + any_case;
   const double left = fit.systematic * fit.systematic + any_case;
   return left > most ? std::sqrt(most / left) : 1;

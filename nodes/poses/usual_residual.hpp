@@ -21,8 +21,8 @@ class UsualResidual {
   /// Of an instance at a distance of `range` from the sensor [m]. Counts by its support.
   void add(const Fit& fit, double range);
   /// In (0, 1]: what is tolerated over what a pose leaves, which is looked at closely, where that is
-  /// more. Both with what is tolerated in any case, so that it is smooth. 1 where nothing was found
-  /// yet.
+  /// more. Both with what is tolerated in any case, so that it is smooth, and what noise alone may
+  /// leave in so few points (Fit::systematic_doubt). 1 where nothing was found yet.
   double exactness(const Fit& fit, double range, const Tolerated& tolerated) const;
 
  private:

@@ -22,7 +22,7 @@ Eigen::Isometry3d nearer(double metres) {
 
 double residual(const SoughtBody& body, const Eigen::Isometry3d& T_scene_model,
                 Eigen::Index points = kAll) {
-  return systematic_residual(body.sought(), T_scene_model, points);
+  return systematic_residual(body.sought(), T_scene_model, points).deviation;
 }
 
 }  // namespace

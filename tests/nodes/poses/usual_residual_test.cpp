@@ -31,6 +31,14 @@ TEST_CASE("exactness is judged by the instances before", "[poses]") {
   CHECK(usual.exactness(fit_of(0.002), 1, {1, 0}) == Approx(std::sqrt(3.25 / 4)));
 }
 
+TEST_CASE("what noise may leave in few points is tolerated", "[poses]") {
+  poses::UsualResidual usual;
+  usual.add(fit_of(0.001), 1);
+  poses::Fit few = fit_of(0.002);
+  few.systematic_doubt = 0.002;
+  CHECK(usual.exactness(few, 1, {1, 0}) == Approx(std::sqrt(5.0 / 8)));
+}
+
 TEST_CASE("what is farther away may be less exact", "[poses]") {
   poses::UsualResidual usual;
   usual.add(fit_of(0.001), 1);
