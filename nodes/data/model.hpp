@@ -43,13 +43,15 @@ class PairTable;
 }
 
 /// Where a model's surfaces end (find_outline): per point of its cloud, a bit for each direction in
-/// which it is no more.
+/// which it is no more; and where they bend.
 struct Outline {
   float reach = 0;                   ///< how far ahead was looked for ends [m]
   std::vector<std::uint8_t> ends{};  ///< of the body
   float gap_reach = 0;               ///< the same, for gaps
   std::vector<std::uint8_t> gaps{};  ///< holes, slots, teeth, and where the body ends
   Eigen::Matrix3Xf hull{};           ///< 3 x N, the outermost points
+  /// Per point of its cloud the nearest one around a bend; itself where there is none. Empty: unknown.
+  std::vector<std::uint32_t> bends{};
 };
 
 /// One object, preprocessed and described. Its cloud, near symmetries and outline belong together.

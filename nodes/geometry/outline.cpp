@@ -28,11 +28,37 @@ std::vector<std::uint8_t> ends_of(const Cloud& model, float reach) {
   return all;
 }
 
+/// The other side of a sheet is around no bend.
+std::vector<std::uint32_t> bends_of(const Cloud& model, float reach) {
+  constexpr float kOtherFace = 0.7F;  // cosine, as between normals that do not agree
+  if (reach == 0) return {};
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(model.points.rows()));
+  const PointGrid grid(model.points, reach);
+  graph::parallel_for(all.size(), 256, [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    float nearest = reach * reach;
+    all[i] = static_cast<std::uint32_t>(i);
+    grid.for_each_within(
+        model.points.row(row).transpose(), reach, [&](std::uint32_t other, float squared) {
+          const float cosine =
+              model.normals.row(row).dot(model.normals.row(static_cast<Eigen::Index>(other)));
+          if (squared >= nearest || std::abs(cosine) >= kOtherFace) return;
+          nearest = squared;
+          all[i] = other;
+        });
+  });
+  return all;
+}
+
 }  // namespace
 
-Outline outline_of(const Cloud& model, float reach, float gap_reach) {
-  return {reach, ends_of(model, reach), gap_reach, ends_of(model, gap_reach),
-          extreme_points(model.points).cast<float>()};
+Outline outline_of(const Cloud& model, float reach, float gap_reach, float bend_reach) {
+  return {reach,
+          ends_of(model, reach),
+          gap_reach,
+          ends_of(model, gap_reach),
+          extreme_points(model.points).cast<float>(),
+          bends_of(model, bend_reach)};
 }
 
 Eigen::Vector3f place_ahead(const Cloud& cloud, Eigen::Index i, int direction, float reach) {

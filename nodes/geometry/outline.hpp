@@ -42,7 +42,8 @@ void for_each_gap(const Cloud& model, const Outline& outline, Eigen::Index i, co
 }
 
 /// Looks from every model point `reach` and `gap_reach` [m] ahead in each direction: the model goes
-/// on if any point of it lies within half of that. Two searches a point and direction.
-Outline outline_of(const Cloud& model, float reach, float gap_reach);
+/// on if any point of it lies within half of that. Two searches a point and direction. Within
+/// `bend_reach` [m] of a bend are points of faces that turn by 45 to 135 deg; 0: not asked.
+Outline outline_of(const Cloud& model, float reach, float gap_reach, float bend_reach = 0);
 
 }  // namespace posevote::geometry

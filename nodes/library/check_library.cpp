@@ -93,6 +93,12 @@ void check_model(const Model& model) {
   require_length(model.outline.gap_reach, "the gaps' reach");
   require_count(static_cast<Eigen::Index>(model.outline.gaps.size()), model.cloud.points.rows(),
                 "points of gaps");
+  const std::vector<std::uint32_t>& bends = model.outline.bends;
+  if (!bends.empty())
+    require_count(static_cast<Eigen::Index>(bends.size()), model.cloud.points.rows(),
+                  "points of bends");
+  require(std::ranges::all_of(bends, [&](std::uint32_t row) { return row < bends.size(); }),
+          "a bend names a point that is not there");
   for (const auto& octave : model.coarser) {
     require(octave->resolution > model.resolution, "octaves do not ascend");
     check_model(*octave);

@@ -65,6 +65,7 @@ void put_model(ByteWriter& out, const Model& model) {
   out.put(model.outline.gap_reach);
   out.put(std::string_view(reinterpret_cast<const char*>(model.outline.gaps.data()),
                            model.outline.gaps.size()));
+  put_numbers(out, model.outline.bends);
   out.put(model.pairs ? model.pairs->step() : 0.0F);  // made anew when it is read
   out.put(model.rims ? model.rims->step() : 0.0F);    // likewise
   out.put(std::uint64_t{model.coarser.size()});
@@ -156,6 +157,7 @@ Model get_model(ByteReader& in, int depth = 0) {
   const std::string_view gaps = in.get_text();
   model.outline.gaps.assign(gaps.begin(), gaps.end());
   model.outline.hull = geometry::extreme_points(model.cloud.points).cast<float>();
+  model.outline.bends = get_numbers(in);
   const auto pair_step = in.get<float>();
   const auto rim_step = in.get<float>();
   const auto coarser = in.get<std::uint64_t>();

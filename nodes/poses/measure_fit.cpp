@@ -26,6 +26,7 @@ struct Judged {
   float apparent = 0;  // size
   double residual = 0;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  bool at_bend = false;
 };
 
 /// What is beside a supported point.
@@ -69,6 +70,14 @@ Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
   return judge_by_range(p, apparent, sensed, Verdict::kMismatched);
 }
 
+/// Whether the sensor sees both faces of a bend beside a model's point.
+bool is_at_bend(const Cloud& model, const Outline& outline, Eigen::Index row,
+                const Eigen::Isometry3f& T_scene_model, const geometry::ScanSurface& scan) {
+  if (outline.bends.empty()) return false;
+  const auto other = static_cast<Eigen::Index>(outline.bends[static_cast<std::size_t>(row)]);
+  return other != row && scan.faces_sensor(geometry::posed_point(model, other, T_scene_model));
+}
+
 /// Of a place where the model's surface is no more: what the scan's does there.
 enum class End { kEnds, kGoesOn, kHidden };
 
@@ -107,6 +116,15 @@ void count_end(End end, unsigned& told, unsigned& goes_on) {
   goes_on += end == End::kGoesOn;
 }
 
+/// Of a point that takes a side.
+void count_side(const Judged& point, double Sides::*side, Sides& sides) {
+  const auto apparent = static_cast<double>(point.apparent);
+  sides.*side += apparent;
+  if (!point.at_bend) return;
+  sides.at_bends += apparent;
+  if (side == &Sides::mismatched) sides.mismatched_at_bends += apparent;
+}
+
 Fit count(const std::vector<Judged>& points) {
   Fit fit;
   double squared = 0;
@@ -115,24 +133,27 @@ Fit count(const std::vector<Judged>& points) {
     if (point.verdict == Verdict::kAway) continue;
     ++fit.facing;
     squared += point.residual * point.residual;
-    const auto apparent = static_cast<double>(point.apparent);
     switch (point.verdict) {
       case Verdict::kAway:
         break;
       case Verdict::kSupported: {
-        ++fit.supported, fit.apparent.supported += apparent;
+        ++fit.supported;
+        count_side(point, &Sides::supported, fit.apparent);
         const Eigen::Vector3d normal = point.normal.cast<double>();
         normals += normal * normal.transpose();
         break;
       }
       case Verdict::kContradicted:
-        ++fit.contradicted, fit.apparent.contradicted += apparent;
+        ++fit.contradicted;
+        count_side(point, &Sides::contradicted, fit.apparent);
         break;
       case Verdict::kMismatched:
-        ++fit.mismatched, fit.apparent.mismatched += apparent;
+        ++fit.mismatched;
+        count_side(point, &Sides::mismatched, fit.apparent);
         break;
       case Verdict::kUnseen:
-        ++fit.unseen, fit.apparent.mismatched += apparent;
+        ++fit.unseen;
+        count_side(point, &Sides::mismatched, fit.apparent);
         break;
       case Verdict::kHidden:
         ++fit.hidden;
@@ -166,8 +187,10 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
   const geometry::Strewn rows(model.points.rows(), sampling.points);
   std::vector<Judged> points(rows.size());
   const auto posed = [&](std::size_t i) { return geometry::posed_point(model, rows[i], T); };
-  graph::parallel_for(points.size(), 512,
-                      [&](std::size_t i) { points[i] = judge(posed(i), sensed); });
+  graph::parallel_for(points.size(), 512, [&](std::size_t i) {
+    points[i] = judge(posed(i), sensed);
+    points[i].at_bend = points[i].apparent > 0 && is_at_bend(model, outline, rows[i], T, scan);
+  });
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(rows.stride());
   const float height = static_cast<float>(terms.same_height * fit.rmse) + kSomeHeight * tolerance;

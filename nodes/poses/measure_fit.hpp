@@ -34,9 +34,15 @@ namespace posevote::poses {
 struct Sides {
   double supported = 0, contradicted = 0;
   double mismatched = 0;  ///< or unseen, but for what looks too grazing to be measured
+  double at_bends = 0;    ///< of all these, what lies at a bend of the model that shows both faces
+  double mismatched_at_bends = 0;
 
+  /// At a bend the scan's normals are those of neither face. What bends all over forgives nothing.
   double against(const FitTerms& terms) const {
-    return contradicted + terms.mismatch_weight * mismatched;
+    const double all = supported + contradicted + mismatched;
+    const double straight = all > 0 ? 1 - at_bends / all : 0;
+    const double forgiven = terms.bends_forgiven * straight * mismatched_at_bends;
+    return contradicted + terms.mismatch_weight * (mismatched - forgiven);
   }
 };
 

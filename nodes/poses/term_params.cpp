@@ -40,6 +40,12 @@ void add_fit(Node& node) {
        "What a model point counts against a pose where another surface, or none, was "
        "measured. Noise, clutter in contact and drop-outs do that to true poses: half.",
        at_least(0));
+  term(
+      "bends_forgiven", &G::bends_forgiven, "of mismatches",
+      "Where a model bends, the scan's normals are those of neither face, so another surface there "
+      "does not speak against a pose: this share of it, times the share of what is seen that does "
+      "not bend. 0 loses small parts that are seen coarsely.",
+      in_range(0, 1));
   term("convincing", &G::convincing, "inliers x clues",
        "Inlier fraction times clues at which evidence is 63 %. False poses on flat ground reach "
        "0.0024, true ones 0.1 to 0.35 in bins; on laser scans 0.045 and 0.12 to 0.37. Larger asks "

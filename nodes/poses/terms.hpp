@@ -38,6 +38,7 @@ struct PoolTerms {
 struct FitTerms {
   double clear_distance = 2;
   double mismatch_weight = 0.5;
+  double bends_forgiven = 1;
   double convincing = 0.1;
   double outline_weight = 3;
   double few_ends = 0.02;

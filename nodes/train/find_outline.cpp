@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a model's surfaces end: segmentation holds that against where the scan's do
+// Where a model's surfaces end, and bend: segmentation holds that against where the scan's do
 // (outline.hpp). `reach` is what a scan that ends is off at most: sensors that match by windows let
 // what stands in front run up to five pixels over its edge, and the tolerance comes to that.
 //
@@ -23,7 +23,7 @@ namespace posevote::train {
 namespace {
 
 struct Params {
-  double reach = 9, gap_reach = 4;
+  double reach = 9, gap_reach = 4, bend_reach = 1.5;
   std::string borders = "unknown";
 };
 
@@ -61,7 +61,8 @@ Outline find_outline(const Mesh& mesh, const Cloud& cloud, const Scale& scale,
   const auto length = [&](double in_resolutions) {
     return static_cast<float>(in_resolutions) * scale.resolution;
   };
-  Outline outline = geometry::outline_of(cloud, length(params.reach), length(params.gap_reach));
+  Outline outline = geometry::outline_of(cloud, length(params.reach), length(params.gap_reach),
+                                         length(params.bend_reach));
   if (params.borders == "end" || mesh.faces.rows() == 0) return outline;
   const PointMatrix border = border_of(mesh, outline.gap_reach / 4);
   if (border.rows() == 0) return outline;
@@ -83,6 +84,10 @@ const auto registered =
                "The same for holes, slots and teeth. Twice segment_objects.inlier_distance: what "
                "ends there has nothing within it.",
                graph::greater_than(0))
+        .param("bend_reach", &Params::bend_reach, "x resolution",
+               "So near to another face the scan's normals may be those of neither: "
+               "segment_objects.bends_forgiven. 0: no bends are looked for.",
+               graph::at_least(0))
         .param("borders", &Params::borders, "", "Whether the body ends where an open mesh does.",
                graph::one_of({"unknown", "end"}));
 

@@ -43,6 +43,7 @@ const std::map<std::string, std::string> kOff = {{"candidates", "1"},
                                                  {"judged_per_place", "1"},
                                                  {"clear_distance", "0"},
                                                  {"mismatch_weight", "0"},
+                                                 {"bends_forgiven", "0"},
                                                  {"convincing", "1e-9"},  // everything is
                                                  {"outline_weight", "0"},
                                                  {"few_ends", "1e-9"},

@@ -44,7 +44,7 @@ std::string file_around(const std::string& payload) {
       checksum += "0123456789abcdef"[static_cast<std::size_t>(digit)];
   library::ByteWriter out;
   for (const char letter : std::string("POSEVLIB")) out.put(letter);
-  out.put(std::uint32_t{13});
+  out.put(std::uint32_t{14});
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
@@ -91,6 +91,7 @@ TEST_CASE("a library comes back from its file byte by byte", "[match]") {
   CHECK(loaded->models[2]->outline.ends == library.models[2]->outline.ends);
   CHECK(loaded->models[2]->outline.gap_reach == library.models[2]->outline.gap_reach);
   CHECK(loaded->models[2]->outline.gaps == library.models[2]->outline.gaps);
+  CHECK(loaded->models[2]->outline.bends == library.models[2]->outline.bends);
   REQUIRE(loaded->models[2]->near_symmetries.items.size() == 1);
   const NearSymmetry& symmetry = loaded->models[2]->near_symmetries.items[0];
   CHECK(symmetry.motion.matrix() == library.models[2]->near_symmetries.items[0].motion.matrix());
@@ -229,7 +230,7 @@ TEST_CASE("a file of another kind, version or key is refused by name", "[match]"
   CHECK_THAT(refusal(folder.write("empty", "")), Catch::Contains("not a model library"));
   std::string old = read_text(folder / "a");
   old[8] = 77;
-  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 13"));
+  CHECK_THAT(refusal(folder.write("old", old)), Catch::Contains("version 77, expected 14"));
 }
 
 TEST_CASE("two threads may write the same file at once", "[match]") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "nodes/data/model.hpp"
+#include "tests/support/box_cloud.hpp"
 #include "tests/support/bumpy_scene.hpp"
 #include "tests/support/run_node.hpp"
 #include "tests/support/shapes.hpp"
@@ -30,6 +31,35 @@ TEST_CASE("find_outline sees where a plate ends, and that a closed body does not
   bare.normals.resize(0, 3);
   CHECK_THROWS_WITH(run_node<Outline>("find_outline", {}, Mesh{}, bare, scale),
                     Catch::Contains("no normals"));
+}
+
+TEST_CASE("find_outline sees where a box bends, and that a sheet does not", "[match]") {
+  const Scale scale{0.002F};
+  const Cloud body = box_cloud({0.1F, 0.08F, 0.06F}, scale.resolution);
+  const std::vector<std::uint32_t> bends =
+      run_node<Outline>("find_outline", {}, Mesh{}, body, scale).bends;
+  REQUIRE(static_cast<Eigen::Index>(bends.size()) == body.points.rows());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < body.points.rows(); ++i) {
+    const auto other = static_cast<Eigen::Index>(bends[static_cast<std::size_t>(i)]);
+    if (other == i) continue;
+    ++count;
+    CHECK((body.points.row(other) - body.points.row(i)).norm() < 1.5F * scale.resolution);
+    CHECK(std::abs(body.normals.row(other).dot(body.normals.row(i))) < 0.1F);
+  }
+  constexpr Eigen::Index kBesideEdges = 2 * 4 * (50 + 40 + 30);  // a row on either side of each
+  CHECK(count > kBesideEdges * 9 / 10);
+  CHECK(count < kBesideEdges * 11 / 10);
+  const auto bends_of = [&](const Cloud& cloud, const char* reach) {
+    return run_node<Outline>("find_outline", {{"bend_reach", reach}}, Mesh{}, cloud, scale).bends;
+  };
+  CHECK(bends_of(body, "0").empty());
+  std::vector<Eigen::RowVector3f> points, normals;
+  for (const float side : {1.F, -1.F})
+    add_rectangle(points, normals, {0, 0, side * 0.0005F}, {0.1F, 0, 0}, {0, side * 0.1F, 0},
+                  scale.resolution);
+  const std::vector<std::uint32_t> sheet = bends_of(geometry::cloud_of(points, normals), "1.5");
+  for (std::size_t i = 0; i < sheet.size(); ++i) CHECK(sheet[i] == i);
 }
 
 TEST_CASE("find_outline says nothing where a mesh has its border", "[train]") {
