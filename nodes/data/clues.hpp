@@ -25,12 +25,13 @@ enum Clue : std::size_t {
                ///< are looked into
   kVisible,    ///< log of the share of what faces the sensor that nothing hides, times -kRelief
   kSunk,       ///< share of its surface that lies in the ground
+  kOutside,    ///< share of what faces the sensor that lies beside the image
   kClueCount
 };
 
 constexpr std::array<const char*, kClueCount> kClueNames{
-    "agreement", "relief",  "outline", "overhang", "votes",   "lead",
-    "exactness", "support", "gaps",    "filled",   "visible", "sunk"};
+    "agreement", "relief", "outline", "overhang", "votes", "lead",   "exactness",
+    "support",   "gaps",   "filled",  "visible",  "sunk",  "outside"};
 
 using Clues = std::array<double, kClueCount>;
 

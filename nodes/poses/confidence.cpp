@@ -16,7 +16,7 @@ constexpr double kUsualVotesPerFeature = 0.3;
 constexpr double kAllSunk = 0.5;
 
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
-constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0};
+constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0, 0};
 
 /// Looks into holes that nobody took: few of them say little.
 constexpr double kFewLooks = 5;
@@ -56,12 +56,14 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   clues[kOverhang] = (1 - shares.continuity) * clues[kSupport];
   clues[kGaps] = bounded_log(shares.gaps + 0.01, 0.01, 0.5);
   clues[kFilled] = filled_odds(fit);
+  const auto share = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, fit.facing));
+  };
   // A small piece of a thing may tell it, but not one that is flat.
-  clues[kVisible] =
-      -clues[kRelief] * bounded_log(static_cast<double>(fit.facing - fit.hidden) /
-                                        static_cast<double>(std::max<std::size_t>(1, fit.facing)),
-                                    0.02, 1);
+  clues[kVisible] = -clues[kRelief] * bounded_log(share(fit.facing - fit.hidden), 0.02, 1);
   clues[kSunk] = std::min(backing.sunk, kAllSunk);
+  // What is hidden takes a body before it; beside the image whatever does not fit is out of sight.
+  clues[kOutside] = share(fit.outside);
   return clues;
 }
 
@@ -75,7 +77,8 @@ double first_log_odds(const Candidate& candidate, const Terms& terms) {
   if (candidate.fit.supported == 0) return 0;
   const Clues clues = clues_of(candidate.fit, {1, std::nullopt, lead_of(candidate)}, terms.fit);
   double log_odds = 0;
-  for (const Clue clue : {kAgreement, kRelief, kOutline, kOverhang, kLead, kSupport, kVisible})
+  for (const Clue clue :
+       {kAgreement, kRelief, kOutline, kOverhang, kLead, kSupport, kVisible, kOutside})
     log_odds += terms.confidence.weights[clue] * (clues[clue] - kUsualClues[clue]);
   return log_odds;
 }

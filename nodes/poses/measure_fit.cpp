@@ -19,7 +19,7 @@ constexpr float kGrazing = 0.35F;
 /// Of the tolerance, by which a surface may be lower or higher than a pose that fits exactly.
 constexpr float kSomeHeight = 0.1F;
 
-enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden };
+enum class Verdict { kAway, kSupported, kContradicted, kMismatched, kUnseen, kHidden, kOutside };
 
 struct Judged {
   Verdict verdict = Verdict::kAway;
@@ -53,7 +53,7 @@ Judged judge_by_range(const geometry::OrientedPoint& p, float apparent, const Se
                       Verdict there) {
   const float measured = sensed.view.measured_range(p.point);
   if (measured == 0) {
-    if (sensed.view.is_outside(p.point)) return {Verdict::kHidden};
+    if (sensed.view.is_outside(p.point)) return {Verdict::kOutside};
     return {Verdict::kUnseen, apparent < kGrazing ? 0 : apparent};
   }
   const float before = measured - (p.point - sensed.scan.viewpoint()).norm();
@@ -155,6 +155,9 @@ Fit count(const std::vector<Judged>& points) {
         ++fit.unseen;
         count_side(point, &Sides::mismatched, fit.apparent);
         break;
+      case Verdict::kOutside:
+        ++fit.outside;
+        [[fallthrough]];
       case Verdict::kHidden:
         ++fit.hidden;
     }

@@ -49,6 +49,7 @@ struct Sides {
 struct Fit {
   std::size_t facing = 0;  ///< all of the below
   std::size_t supported = 0, contradicted = 0, mismatched = 0, unseen = 0, hidden = 0;
+  std::size_t outside = 0;           ///< of the hidden, what lies beside the image
   Sides apparent;                    ///< of these
   std::size_t ends = 0;              ///< places beside the supported where the model's surface ends
   std::size_t overhang = 0;          ///< of those, where the scan's surface goes on

@@ -52,6 +52,11 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   fit = good_fit();
   fit.supported = fit.facing = 40, fit.ends = 16;
   CHECK(believed(fit) < usual);
+  fit = good_fit();
+  fit.supported = 600, fit.hidden = 400;
+  const double hidden = believed(fit);
+  fit.outside = 400;
+  CHECK(believed(fit) < hidden);
   CHECK(believed(good_fit(), {0.6, 0.5, 2}) < usual);
   CHECK(believed(good_fit(), {1, 0.01, 2}) < usual);
   CHECK(believed(good_fit(), {1, 0.5, 0.5}) < usual);

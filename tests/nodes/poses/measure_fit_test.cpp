@@ -97,6 +97,7 @@ TEST_CASE("a body before what was measured is contradicted", "[poses]") {
 TEST_CASE("a body behind what was measured is hidden", "[poses]") {
   const poses::Fit fit = fit_of(bumpy_model(1)->cloud, scan_of({}), pose(0, 0, 1.5, 0.7));
   CHECK(fit.hidden == fit.facing);
+  CHECK(fit.outside == 0);
   CHECK(poses::fit_quality(fit) == 0);
 }
 
@@ -116,6 +117,7 @@ TEST_CASE("beside the image nobody looked, if it is known where the image ends",
   const poses::Fit known = fit_of(bumpy_model(1)->cloud, scan, beside);
   CHECK(known.facing == unknown.facing);
   CHECK(known.hidden == known.facing);
+  CHECK(known.outside == known.facing);
 }
 
 TEST_CASE("a body cut off by the image's border agrees with the scan", "[poses]") {
