@@ -25,7 +25,8 @@ enum Clue : std::size_t {
                ///< are looked into
   kVisible,    ///< log of the share of what faces the sensor that nothing hides, times -kRelief
   kSunk,       ///< share of its surface that lies in the ground
-  kOutside,    ///< share of what faces the sensor that lies beside the image
+  kOutside,  ///< share of what faces the sensor that lies beside the image, times what kLead lacks
+             ///< of a clear lead
   kClueCount
 };
 

@@ -12,6 +12,9 @@ namespace {
 /// Of true poses, so that it says nothing.
 constexpr double kUsualVotesPerFeature = 0.3;
 
+/// Log of a lead that chance does not give.
+constexpr double kClearLead = 1;
+
 /// What has that share in the ground cannot be there.
 constexpr double kAllSunk = 0.5;
 
@@ -62,8 +65,9 @@ Clues clues_of(const Fit& fit, const Backing& backing, const FitTerms& terms) {
   // A small piece of a thing may tell it, but not one that is flat.
   clues[kVisible] = -clues[kRelief] * bounded_log(share(fit.facing - fit.hidden), 0.02, 1);
   clues[kSunk] = std::min(backing.sunk, kAllSunk);
-  // What is hidden takes a body before it; beside the image whatever does not fit is out of sight.
-  clues[kOutside] = share(fit.outside);
+  // What is hidden takes a body before it; beside the image whatever does not fit is out of sight, so
+  // that many places fit. A lead over the others says that this is none of many.
+  clues[kOutside] = share(fit.outside) * std::max(0.0, kClearLead - clues[kLead]);
   return clues;
 }
 

@@ -65,7 +65,7 @@ struct ConfidenceTerms {
   double offset = -10.47;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
   Clues weights{1.887, 0.4017, 1.787, -6.564, 0.3277, 0.6792, 4.022,
-                2.067, 0.6542, -0.8,  0.4996, -14.03, -8};
+                2.067, 0.6542, -0.8,  0.4996, -14.03, -2};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -54,9 +54,11 @@ TEST_CASE("each clue moves the confidence its way", "[poses]") {
   CHECK(believed(fit) < usual);
   fit = good_fit();
   fit.supported = 600, fit.hidden = 400;
-  const double hidden = believed(fit);
+  const poses::Backing behind{1, 0.5, 0.8}, ahead{1, 0.5, 4};
+  const double hidden = believed(fit, behind), hidden_ahead = believed(fit, ahead);
   fit.outside = 400;
-  CHECK(believed(fit) < hidden);
+  CHECK(believed(fit, behind) < hidden);
+  CHECK(believed(fit, ahead) == hidden_ahead);
   CHECK(believed(good_fit(), {0.6, 0.5, 2}) < usual);
   CHECK(believed(good_fit(), {1, 0.01, 2}) < usual);
   CHECK(believed(good_fit(), {1, 0.5, 0.5}) < usual);
