@@ -26,19 +26,6 @@ std::size_t count(const std::vector<char>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), char(1)));
 }
 
-/// Shares of the points that turn to the sensor, which all lie beside the image or not.
-double share_outside(const Model& model, const poses::ScanState& scan,
-                     const Eigen::Isometry3d& T_scene_model) {
-  std::size_t facing = 0, outside = 0;
-  for (Eigen::Index i = 0; i < model.cloud.points.rows(); ++i) {
-    const auto p = geometry::posed_point(model.cloud, i, T_scene_model.cast<float>());
-    if (!scan.surface.faces_sensor(p)) continue;
-    ++facing;
-    outside += scan.view.is_outside(p.point);
-  }
-  return share(outside, facing);
-}
-
 std::vector<char> rows_on(const Model& model, const Eigen::Isometry3d& T_scene_model,
                           const PointMatrix& points, const PointMatrix& normals, float distance) {
   const geometry::SurfaceIndex index(model.cloud.points, distance);
@@ -52,8 +39,8 @@ Seen look(const poses::Sought& sought, const Eigen::Isometry3d& T_scene_model) {
   seen.contradicted = share(fit.contradicted, fit.facing);
   seen.mismatched = share(fit.mismatched, fit.facing);
   seen.unmeasured = share(fit.unseen, fit.facing);
-  seen.outside = share_outside(sought.model, sought.scan, T_scene_model);
-  seen.hidden = std::max(0.0, share(fit.hidden, fit.facing) - seen.outside);
+  seen.outside = share(fit.outside, fit.facing);
+  seen.hidden = share(fit.hidden - fit.outside, fit.facing);
   seen.scan_points = count(rows_on(sought.model, T_scene_model, sought.scan.cloud.points,
                                    sought.scan.cloud.normals, sought.params.tolerance));
   return seen;
