@@ -49,7 +49,10 @@ TEST_CASE("a library is refused for every value that nodes could not rely on", "
       {"the gaps' reach is 0", [](Model& m) { m.outline.gap_reach = 0; }},
       {"points of gaps", [](Model& m) { m.outline.gaps.pop_back(); }},
       {"points of bends", [](Model& m) { m.outline.bends = {0}; }},
-      {"a bend names a point", [](Model& m) { m.outline.bends = {0, 3, 2}; }},
+      {"a bend names a point",
+       [](Model& m) {
+         m.outline.bends = {0, 3, 2};
+       }},
       {"a near symmetry is no motion",
        [](Model& m) { m.near_symmetries.items[0].motion.linear() *= 2; }},
       {"a near symmetry names a point",
