@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "graph/parallel.hpp"
 
@@ -83,10 +84,14 @@ Peaks find_peaks(const std::vector<Source>& sources, const PeakOptions& options)
     PairVotes counter;
     for (std::size_t i = begin; i < end; ++i) {
       const auto [group, reference] = starts[i];
-      const Source& first = sources[group->objects.front()];
-      counter.go_to((*first.references)[reference].frame, *first.scene, group->reach);
-      for (const std::size_t object : group->objects)
-        peaks[object][reference] = counter.peaks(*sources[object].table, options);
+      bool is_there = false;
+      for (const std::size_t object : group->objects) {
+        const Source& source = sources[object];
+        if (!source.chosen.empty() && source.chosen[reference] == 0) continue;
+        if (!std::exchange(is_there, true))
+          counter.go_to((*source.references)[reference].frame, *source.scene, group->reach);
+        peaks[object][reference] = counter.peaks(*source.table, options);
+      }
     }
   });
   return peaks;

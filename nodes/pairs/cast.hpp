@@ -23,6 +23,7 @@ struct Source {
   const PairTable* table = nullptr;
   const PairScene* scene = nullptr;
   const std::vector<Reference>* references = nullptr;
+  std::vector<char> chosen = {};  ///< per reference, whether its pairs start there; empty: all do
 };
 
 /// A kind of table of each object's model; null where it has none.

@@ -68,6 +68,7 @@ PairTable::PairTable(std::vector<LocalFrame> points, float step, float reach,
   ends_.resize(starts_.back() + kEndPadding);
   std::vector<std::uint32_t> next = starts_;
   const PointMatrix lab = has_colors_ ? color::lab_of(colors) : PointMatrix();
+  colors_ = color::ColorShares(lab);
   const auto color_at = [&](std::size_t i) {
     return Eigen::Vector3f(lab.row(static_cast<Eigen::Index>(i)).transpose());
   };

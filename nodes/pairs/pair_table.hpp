@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "nodes/color/color_shares.hpp"
 #include "nodes/data/model.hpp"
 #include "nodes/pairs/count_turned.hpp"
 #include "nodes/pairs/local_frame.hpp"
@@ -29,6 +30,8 @@ class PairTable {
   float reach() const { return reach_; }
   const std::vector<LocalFrame>& points() const { return points_; }
   bool has_colors() const { return has_colors_; }
+  /// Of the points; of nothing where they have no colours.
+  const color::ColorShares& colors() const { return colors_; }
   std::size_t bins() const { return starts_.size() - 1; }
   /// The pairs of a bin, by their turns.
   std::span<const PairEnd> operator[](std::uint32_t bin) const {
@@ -53,6 +56,7 @@ class PairTable {
 
   float step_ = 0, reach_ = 0;
   bool has_colors_ = false;
+  color::ColorShares colors_;
   std::vector<LocalFrame> points_;
   std::vector<std::uint32_t> starts_;  ///< per bin, and the end
   std::vector<PairEnd> ends_;          ///< padded

@@ -16,6 +16,10 @@
 // votes gather at the poses that are right, whose lead over the best elsewhere grows (YCB-Video
 // 1.05 to 1.15, painted `household` 1.8 to 2.2).
 //
+// And its pairs start from points whose colours are more often the object's than the scan's
+// (pairs/color_choice.hpp), which costs nothing: of 181 things, plainly painted, in clutter 167
+// instead of 160 are found.
+//
 // The points that pairs start from are feature points, so that what is explained takes its votes
 // along. Time: references x pairs of each, some 0.1 ms a reference.
 //
@@ -24,10 +28,12 @@
 //   cast_pairs: {in: [circle_votes, scene_features, scene_cloud], out: votes, references: 300}
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "graph/parallel.hpp"
 #include "graph/registry.hpp"
 #include "nodes/pairs/cast.hpp"
+#include "nodes/pairs/color_choice.hpp"
 
 namespace posevote::vote {
 namespace {
@@ -67,15 +73,21 @@ std::vector<std::unique_ptr<const pairs::PairScene>> scenes_of(const Cloud& clou
 
 PerObject<VoteSet> cast_pairs(const PerObject<VoteSet>& given, const FeatureSet& features,
                               const Cloud& cloud, const Params& params) {
+  const auto most = static_cast<std::size_t>(params.references);
+  const bool has_colors = cloud.colors.rows() > 0;
   const std::vector<pairs::Reference> references =
-      pick_references(features, static_cast<std::size_t>(params.references));
-  if (references.empty()) return given;
+      pick_references(features, has_colors ? pairs::ColorChoice::kOneOf * most : most);
+  if (references.empty() || given.size() == 0) return given;
   const auto tables = pairs::tables_of(given, &Model::pairs);
   const pairs::SharedSteps steps = pairs::share_steps(tables);
   const auto scenes = scenes_of(cloud, steps.edges);
+  std::optional<pairs::ColorChoice> choice;
+  if (has_colors) choice.emplace(references, cloud, std::ranges::max(steps.edges));
   std::vector<pairs::Source> sources;
-  for (std::size_t i = 0; i < tables.size(); ++i)
+  for (std::size_t i = 0; i < tables.size(); ++i) {
     sources.push_back({tables[i], scenes[steps.of[i]].get(), &references});
+    if (choice && tables[i]) sources.back().chosen = choice->choose(*given[i].model, most);
+  }
   return pairs::cast(given, sources,
                      {static_cast<std::size_t>(params.poses), params.least_ratio,
                       pairs::Turn::kOpen, static_cast<std::uint16_t>(params.like_color)});

@@ -118,6 +118,29 @@ TEST_CASE("the same votes again, and whatever else is sought", "[vote]") {
   }
 }
 
+TEST_CASE("colours choose where pairs start", "[vote][color]") {
+  Scene scene;
+  const Cloud grey = scene.cloud;
+  const Eigen::Isometry3d T = scene.bodies[0].T_scene_model;
+  const Eigen::RowVector3f red(0.6F, 0.05F, 0.05F), blue(0.05F, 0.05F, 0.6F);
+  scene.cloud.colors.resize(grey.points.rows(), 3);
+  const float reach = 0.6F * bumpy_model(1)->diagonal;
+  for (Eigen::Index i = 0; i < grey.points.rows(); ++i) {
+    const Eigen::Vector3f offset = grey.points.row(i).transpose() - T.translation().cast<float>();
+    scene.cloud.colors.row(i) = offset.norm() < reach ? red : blue;
+  }
+  auto painted = std::make_shared<Model>(*bumpy_model(1));
+  painted->cloud.colors = PointMatrix::Zero(painted->cloud.points.rows(), 3).rowwise() + red;
+  painted->pairs = pairs::index_pairs(*painted, 0.07F * painted->diagonal);
+  const auto right = [&](const std::shared_ptr<const Model>& model, const Cloud& cloud) {
+    return near(cast({no_votes(model)}, scene.features, cloud, {{"references", "60"}})[0], T);
+  };
+  const std::size_t by_shape = right(model_with_pairs(1), grey);
+  CHECK(by_shape > 3);
+  CHECK(right(painted, scene.cloud) > 2 * by_shape);
+  CHECK(right(painted, grey) == by_shape);
+}
+
 TEST_CASE("what cannot be paired casts no votes and does no harm", "[vote]") {
   Scene scene;
   const VoteSet unindexed = no_votes(bumpy_model(1));

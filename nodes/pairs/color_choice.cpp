@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/pairs/color_choice.hpp"
+
+#include <algorithm>
+
+#include "nodes/color/srgb.hpp"
+#include "nodes/geometry/nearest_index.hpp"
+#include "nodes/pairs/pair_table.hpp"
+
+namespace posevote::pairs {
+namespace {
+
+/// Beside 1 for a colour of which both have as much: colours may be those of another light.
+constexpr float kUnlike = 0.2F;
+constexpr float kMost = 10;
+
+}  // namespace
+
+ColorChoice::ColorChoice(const std::vector<Reference>& references, const Cloud& scan, float near)
+    : lab_(PointMatrix::Zero(std::ssize(references), 3)) {
+  const PointMatrix lab = color::lab_of(scan.colors);
+  const geometry::NearestIndex index(scan.points, near);
+  Eigen::Index row = 0;
+  for (const Reference& one : references) {
+    if (const auto found = index.nearest(one.frame.point, near))
+      lab_.row(row) = lab.row(found.index);
+    ++row;
+  }
+  shares_ = color::ColorShares(lab_);
+}
+
+std::vector<char> ColorChoice::choose(const Model& model, std::size_t most) const {
+  const auto count = static_cast<std::size_t>(lab_.rows());
+  const color::ColorShares object = model.pairs ? model.pairs->colors() : color::ColorShares();
+  std::vector<double> sums;
+  double sum = 0;
+  for (Eigen::Index i = 0; i < lab_.rows(); ++i) {
+    const Eigen::Vector3f lab = lab_.row(i).transpose();
+    sum += static_cast<double>(kUnlike + std::min(kMost, object.like(lab) / shares_.like(lab)));
+    sums.push_back(sum);
+  }
+  std::vector<char> chosen(count, 0);
+  for (std::size_t k = 0; k < most && count > 0; ++k) {
+    const double place = sum * (static_cast<double>(k) + 0.5) / static_cast<double>(most);
+    chosen[static_cast<std::size_t>(std::ranges::lower_bound(sums, place) - sums.begin())] = 1;
+  }
+  return chosen;
+}
+
+}  // namespace posevote::pairs
