@@ -29,14 +29,14 @@ ColorChoice::ColorChoice(const std::vector<Reference>& references, const Cloud& 
   shares_ = color::ColorShares(lab_);
 }
 
-std::vector<char> ColorChoice::choose(const Model& model, std::size_t most) const {
+std::vector<char> ColorChoice::choose(const PairTable& model, std::size_t most) const {
   const auto count = static_cast<std::size_t>(lab_.rows());
-  const color::ColorShares object = model.pairs ? model.pairs->colors() : color::ColorShares();
   std::vector<double> sums;
   double sum = 0;
   for (Eigen::Index i = 0; i < lab_.rows(); ++i) {
     const Eigen::Vector3f lab = lab_.row(i).transpose();
-    sum += static_cast<double>(kUnlike + std::min(kMost, object.like(lab) / shares_.like(lab)));
+    sum += static_cast<double>(kUnlike +
+                               std::min(kMost, model.colors().like(lab) / shares_.like(lab)));
     sums.push_back(sum);
   }
   std::vector<char> chosen(count, 0);

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "nodes/color/color_shares.hpp"
-#include "nodes/data/model.hpp"
 #include "nodes/pairs/cast.hpp"
 
 namespace posevote::pairs {
@@ -22,7 +20,7 @@ class ColorChoice {
   /// Among `references`; `near`: how near to one its colour is seen, at most [m]. The scan has colours.
   ColorChoice(const std::vector<Reference>& references, const Cloud& scan, float near);
   /// About `most` of them, 1 each; evenly where the model has no colours, or none that the scan has.
-  std::vector<char> choose(const Model& model, std::size_t most) const;
+  std::vector<char> choose(const PairTable& model, std::size_t most) const;
 
  private:
   PointMatrix lab_;            ///< of each

@@ -86,7 +86,7 @@ PerObject<VoteSet> cast_pairs(const PerObject<VoteSet>& given, const FeatureSet&
   std::vector<pairs::Source> sources;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     sources.push_back({tables[i], scenes[steps.of[i]].get(), &references});
-    if (choice && tables[i]) sources.back().chosen = choice->choose(*given[i].model, most);
+    if (choice && tables[i]) sources.back().chosen = choice->choose(*tables[i], most);
   }
   return pairs::cast(given, sources,
                      {static_cast<std::size_t>(params.poses), params.least_ratio,

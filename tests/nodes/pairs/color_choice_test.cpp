@@ -42,12 +42,11 @@ struct Scene {
   std::vector<pairs::Reference> references;
 };
 
-std::shared_ptr<const Model> model_of(const Light* light) {
-  auto model = std::make_shared<Model>(*bumpy_model(1));
+std::shared_ptr<const pairs::PairTable> table_of(const Light* light) {
+  Model model = *bumpy_model(1);
   if (light)
-    model->cloud.colors = PointMatrix::Zero(model->cloud.points.rows(), 3).rowwise() + *light;
-  model->pairs = pairs::index_pairs(*model, 0.07F * model->diagonal);
-  return model;
+    model.cloud.colors = PointMatrix::Zero(model.cloud.points.rows(), 3).rowwise() + *light;
+  return pairs::index_pairs(model, 0.07F * model.diagonal);
 }
 
 std::size_t count(const std::vector<char>& chosen) {
@@ -59,7 +58,7 @@ std::size_t count(const std::vector<char>& chosen) {
 TEST_CASE("pairs start where the colours are the object's", "[pairs][color]") {
   const Scene scene;
   const pairs::ColorChoice choice(scene.references, scene.wall, kResolution);
-  const auto chosen = [&](const Light* light) { return choice.choose(*model_of(light), kMost); };
+  const auto chosen = [&](const Light* light) { return choice.choose(*table_of(light), kMost); };
   const auto red = chosen(&kRed);
   REQUIRE(red.size() == scene.references.size());
   CHECK(count(red) == kMost);
@@ -72,18 +71,18 @@ TEST_CASE("where colours do not tell, pairs start everywhere", "[pairs][color]")
   const Scene scene;
   const pairs::ColorChoice choice(scene.references, scene.wall, kResolution);
   for (const Light* light : {&kGreen, static_cast<const Light*>(nullptr)}) {
-    const auto chosen = choice.choose(*model_of(light), kMost);
+    const auto chosen = choice.choose(*table_of(light), kMost);
     CHECK(count(chosen) == kMost);
     CHECK(scene.count_red(chosen) >= 5);
     CHECK(scene.count_red(chosen) <= 15);
   }
-  CHECK(count(choice.choose(*model_of(&kRed), 0)) == 0);
-  CHECK(count(choice.choose(*model_of(&kRed), 100000)) <= scene.references.size());
+  CHECK(count(choice.choose(*table_of(&kRed), 0)) == 0);
+  CHECK(count(choice.choose(*table_of(&kRed), 100000)) <= scene.references.size());
 }
 
 TEST_CASE("of no points none is chosen", "[pairs][color]") {
   const Scene scene;
-  CHECK(pairs::ColorChoice({}, scene.wall, kResolution).choose(*model_of(&kRed), 10).empty());
+  CHECK(pairs::ColorChoice({}, scene.wall, kResolution).choose(*table_of(&kRed), 10).empty());
 }
 
 }  // namespace posevote::color_choice_test
