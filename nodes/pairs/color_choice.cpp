@@ -10,9 +10,9 @@
 namespace posevote::pairs {
 namespace {
 
-/// Beside 1 for a colour of which both have as much: colours may be those of another light.
-constexpr float kUnlike = 0.2F;
-constexpr float kMost = 10;
+/// A point's weight is the object's share of its colour over the scan's, at most kMost, and a little
+/// for any colour: it may be that of another light.
+constexpr float kMost = 10, kUnlike = 0.2F;
 
 }  // namespace
 

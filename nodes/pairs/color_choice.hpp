@@ -14,7 +14,7 @@ namespace posevote::pairs {
 /// and from those no pair is right.
 class ColorChoice {
  public:
-  /// Colours choose one of so many; more are no better.
+  /// Colours choose one of so many.
   static constexpr std::size_t kOneOf = 5;
 
   /// Among `references`; `near`: how near to one its colour is seen, at most [m]. The scan has colours.
