@@ -14,32 +14,27 @@ int bin_along(float value, float step, int bins) {
 
 }  // namespace
 
-std::size_t ColorShares::bin_of(const Eigen::Vector3f& lab) {
+ColorShares::Bin ColorShares::bin_of(const Eigen::Vector3f& lab) {
   constexpr float kMiddle = kChromaStep * kChromas / 2;
-  const int bin = (bin_along(lab[0], kLightStep, kLights) * kChromas +
-                   bin_along(lab[1] + kMiddle, kChromaStep, kChromas)) *
-                      kChromas +
-                  bin_along(lab[2] + kMiddle, kChromaStep, kChromas);
-  return static_cast<std::size_t>(bin);
+  return {bin_along(lab[0], kLightStep, kLights),
+          bin_along(lab[1] + kMiddle, kChromaStep, kChromas),
+          bin_along(lab[2] + kMiddle, kChromaStep, kChromas)};
+}
+
+std::size_t ColorShares::number_of(const Bin& bin) {
+  return static_cast<std::size_t>((bin[0] * kChromas + bin[1]) * kChromas + bin[2]);
 }
 
 ColorShares::ColorShares(const PointMatrix& lab) {
-  std::array<float, static_cast<std::size_t>(kLights * kChromas * kChromas)> counts{};
-  for (Eigen::Index i = 0; i < lab.rows(); ++i) ++counts[bin_of(lab.row(i).transpose())];
-  // With the bins beside it.
-  const auto at = [](int l, int a, int b) {
-    return static_cast<std::size_t>((l * kChromas + a) * kChromas + b);
-  };
-  for (int l = 0; l < kLights; ++l)
-    for (int a = 0; a < kChromas; ++a)
-      for (int b = 0; b < kChromas; ++b) {
-        float sum = 0;
-        for (int dl = std::max(0, l - 1); dl <= std::min(kLights - 1, l + 1); ++dl)
-          for (int da = std::max(0, a - 1); da <= std::min(kChromas - 1, a + 1); ++da)
-            for (int db = std::max(0, b - 1); db <= std::min(kChromas - 1, b + 1); ++db)
-              sum += counts[at(dl, da, db)];
-        shares_[at(l, a, b)] = sum / static_cast<float>(std::max<Eigen::Index>(1, lab.rows()));
-      }
+  for (Eigen::Index i = 0; i < lab.rows(); ++i) {
+    // In its bin and in those beside it.
+    const auto [l, a, b] = bin_of(lab.row(i).transpose());
+    for (int near_l = std::max(0, l - 1); near_l <= std::min(kLights - 1, l + 1); ++near_l)
+      for (int near_a = std::max(0, a - 1); near_a <= std::min(kChromas - 1, a + 1); ++near_a)
+        for (int near_b = std::max(0, b - 1); near_b <= std::min(kChromas - 1, b + 1); ++near_b)
+          ++shares_[number_of({near_l, near_a, near_b})];
+  }
+  for (float& share : shares_) share /= static_cast<float>(std::max<Eigen::Index>(1, lab.rows()));
 }
 
 }  // namespace posevote::color

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "nodes/data/cloud.hpp"
 
@@ -16,13 +17,15 @@ class ColorShares {
   /// `lab`: n x 3, of points that stand for as much surface each.
   explicit ColorShares(const PointMatrix& lab);
   /// In [0, 1], of colours like this one.
-  float like(const Eigen::Vector3f& lab) const { return shares_[bin_of(lab)]; }
+  float like(const Eigen::Vector3f& lab) const { return shares_[number_of(bin_of(lab))]; }
 
  private:
   static constexpr int kLights = 5, kChromas = 16;
-  static std::size_t bin_of(const Eigen::Vector3f& lab);
+  using Bin = std::array<int, 3>;  ///< along L*, a*, b*
+  static Bin bin_of(const Eigen::Vector3f& lab);
+  static std::size_t number_of(const Bin& bin);
 
-  std::array<float, static_cast<std::size_t>(kLights* kChromas* kChromas)> shares_{};
+  std::array<float, std::size_t{kLights} * kChromas * kChromas> shares_{};
 };
 
 }  // namespace posevote::color

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "graph/parallel.hpp"
 
@@ -78,20 +77,19 @@ Peaks find_peaks(const std::vector<Source>& sources, const PeakOptions& options)
   for (const Group& one : groups) {
     const std::size_t references = sources[one.objects.front()].references->size();
     for (const std::size_t object : one.objects) peaks[object].resize(references);
-    for (std::size_t i = 0; i < references; ++i) starts.push_back({&one, i});
+    for (std::size_t i = 0; i < references; ++i)
+      if (std::ranges::any_of(one.objects, [&](auto k) { return sources[k].starts_at(i); }))
+        starts.push_back({&one, i});
   }
   graph::parallel_ranges(starts.size(), 8, [&](std::size_t begin, std::size_t end) {
     PairVotes counter;
     for (std::size_t i = begin; i < end; ++i) {
       const auto [group, reference] = starts[i];
-      bool is_there = false;
-      for (const std::size_t object : group->objects) {
-        const Source& source = sources[object];
-        if (!source.chosen.empty() && source.chosen[reference] == 0) continue;
-        if (!std::exchange(is_there, true))
-          counter.go_to((*source.references)[reference].frame, *source.scene, group->reach);
-        peaks[object][reference] = counter.peaks(*source.table, options);
-      }
+      const Source& first = sources[group->objects.front()];
+      counter.go_to((*first.references)[reference].frame, *first.scene, group->reach);
+      for (const std::size_t object : group->objects)
+        if (sources[object].starts_at(reference))
+          peaks[object][reference] = counter.peaks(*sources[object].table, options);
     }
   });
   return peaks;

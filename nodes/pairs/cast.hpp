@@ -2,6 +2,7 @@
 // How the nodes that vote by pairs of points do it, whatever the points are.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Source {
   const PairScene* scene = nullptr;
   const std::vector<Reference>* references = nullptr;
   std::vector<char> chosen = {};  ///< per reference, whether its pairs start there; empty: all do
+
+  bool starts_at(std::size_t reference) const { return chosen.empty() || chosen[reference] != 0; }
 };
 
 /// A kind of table of each object's model; null where it has none.

@@ -16,16 +16,16 @@ constexpr float kMost = 10, kUnlike = 0.2F;
 
 }  // namespace
 
-ColorChoice::ColorChoice(const std::vector<Reference>& references, const Cloud& scan, float near)
-    : lab_(PointMatrix::Zero(std::ssize(references), 3)) {
-  const PointMatrix lab = color::lab_of(scan.colors);
+ColorChoice::ColorChoice(const std::vector<Reference>& references, const Cloud& scan, float near) {
   const geometry::NearestIndex index(scan.points, near);
+  ColorMatrix colors = ColorMatrix::Zero(std::ssize(references), 3);
   Eigen::Index row = 0;
   for (const Reference& one : references) {
     if (const auto found = index.nearest(one.frame.point, near))
-      lab_.row(row) = lab.row(found.index);
+      colors.row(row) = scan.colors.row(found.index);
     ++row;
   }
+  lab_ = color::lab_of(colors);
   shares_ = color::ColorShares(lab_);
 }
 

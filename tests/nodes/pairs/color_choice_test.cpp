@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/pairs/color_choice.hpp"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
+#include <memory>
 #include <numeric>
 
 #include "nodes/pairs/pair_table.hpp"
@@ -44,8 +44,7 @@ struct Scene {
 
 std::shared_ptr<const pairs::PairTable> table_of(const Light* light) {
   Model model = *bumpy_model(1);
-  if (light)
-    model.cloud.colors = PointMatrix::Zero(model.cloud.points.rows(), 3).rowwise() + *light;
+  if (light) model.cloud.colors = light->replicate(model.cloud.points.rows(), 1);
   return pairs::index_pairs(model, 0.07F * model.diagonal);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 #include <limits>
+#include <optional>
 
 #include "nodes/data/votes.hpp"
 #include "nodes/pairs/pair_table.hpp"
@@ -13,8 +14,11 @@ using namespace posevote::test;
 
 namespace {
 
-std::shared_ptr<const Model> model_with_pairs(int shape) {
+/// `light`: its colour, if it has any.
+std::shared_ptr<const Model> model_with_pairs(int shape,
+                                              std::optional<Eigen::RowVector3f> light = {}) {
   auto model = std::make_shared<Model>(*bumpy_model(shape));
+  if (light) model->cloud.colors = light->replicate(model->cloud.points.rows(), 1);
   model->pairs = pairs::index_pairs(*model, 0.07F * model->diagonal);
   return model;
 }
@@ -129,9 +133,7 @@ TEST_CASE("colours choose where pairs start", "[vote][color]") {
     const Eigen::Vector3f offset = grey.points.row(i).transpose() - T.translation().cast<float>();
     scene.cloud.colors.row(i) = offset.norm() < reach ? red : blue;
   }
-  auto painted = std::make_shared<Model>(*bumpy_model(1));
-  painted->cloud.colors = PointMatrix::Zero(painted->cloud.points.rows(), 3).rowwise() + red;
-  painted->pairs = pairs::index_pairs(*painted, 0.07F * painted->diagonal);
+  const auto painted = model_with_pairs(1, red);
   const auto right = [&](const std::shared_ptr<const Model>& model, const Cloud& cloud) {
     return near(cast({no_votes(model)}, scene.features, cloud, {{"references", "60"}})[0], T);
   };
