@@ -31,8 +31,7 @@ Candidate look(const Sought& sought, const Candidate& before) {
 
 void judge_again(const Sought& sought, Candidate& candidate) {
   const Candidate before = candidate;
-  judge(sought, candidate, kAllPoints);
-  believe(sought, candidate);
+  judge_closely(sought, candidate, kAllPoints);
   recall_votes(sought, before, candidate);
 }
 

@@ -192,7 +192,8 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
   const auto posed = [&](std::size_t i) { return geometry::posed_point(model, rows[i], T); };
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
     points[i] = judge(posed(i), sensed);
-    points[i].at_bend = points[i].apparent > 0 && is_at_bend(model, outline, rows[i], T, scan);
+    points[i].at_bend = points[i].apparent > 0 && points[i].verdict != Verdict::kHidden &&
+                        is_at_bend(model, outline, rows[i], T, scan);
   });
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(rows.stride());

@@ -57,7 +57,7 @@ struct Fit {
   std::size_t holes = 0, filled_holes = 0;  ///< of those, of gaps behind which the model goes on
   double inlier_fraction = 0;               ///< supported / facing
   double rmse = 0;                          ///< point to plane, over the supported [m]
-  /// What patches of the scan lie off by, not noise, where the pose is looked at closely [m]
+  /// What patches of the scan lie off by, not noise, of a pose that may be right [m]
   /// (systematic_residual.hpp), and what noise alone may leave there (Shared); not of measure_fit.
   double systematic = 0, systematic_doubt = 0;
   double relief = 0;      ///< of the supported: 0 if all normals are parallel, 2/3 at most

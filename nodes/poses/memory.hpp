@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "nodes/poses/measure_fit.hpp"
+#include "nodes/poses/patches.hpp"
 #include "nodes/poses/scan_state.hpp"
 
 namespace posevote::poses {
@@ -76,6 +77,7 @@ class Answers {
 /// Of one object.
 struct Memory {
   Answers<Fit> fits;
+  Answers<Shared> residuals;
   Answers<Eigen::Isometry3d> refined;
   Answers<std::size_t> explained;
 };

@@ -11,7 +11,6 @@
 #include "nodes/geometry/edge_pairs.hpp"
 #include "nodes/poses/color_turns.hpp"
 #include "nodes/poses/confidence.hpp"
-#include "nodes/poses/score.hpp"
 
 namespace posevote::poses {
 namespace {
@@ -83,16 +82,18 @@ geometry::IcpParams steps_from(const Sought& sought, float distance, int points,
           sought.terms.icp};
 }
 
+/// A confidence that neither a contour nor exactness makes a detection's.
+constexpr double kHopeless = 0.03;
+
 void judge_refined(const Sought& sought, Candidate& candidate, const Closeness& look) {
   turn_by_color(sought, candidate);
-  judge(sought, candidate, look);
-  believe(sought, candidate);
+  judge_closely(sought, candidate, look);
 }
 
 /// Whether free space speaks against a pose that may be right nevertheless, and is not sure yet.
 bool may_gain_by_contour(const Sought& sought, const Candidate& candidate) {
-  constexpr double kFew = 0.02;                    // of the points that take a side, seen through
-  constexpr double kHopeless = 0.03, kSure = 0.9;  // confidences that a contour hardly changes
+  constexpr double kFew = 0.02;  // of the points that take a side, seen through
+  constexpr double kSure = 0.9;  // a confidence that a contour hardly changes
   if (!sought.params.refine || sought.terms.contour.points == 0) return false;
   if (candidate.confidence <= kHopeless || candidate.confidence >= kSure) return false;
   const auto sides = static_cast<double>(candidate.fit.facing - candidate.fit.hidden);
@@ -112,6 +113,16 @@ void try_contour(const Sought& sought, Candidate& candidate, Kind kind,
 }
 
 }  // namespace
+
+/// Exactness only takes from a confidence, and is asked for last, since it takes as long as all else.
+void judge_closely(const Sought& sought, Candidate& candidate, const Closeness& look) {
+  judge(sought, candidate, look);
+  believe(sought, candidate);
+  if (candidate.confidence <= kHopeless) return;
+  measure_residual(sought, candidate, look.sampling.points);
+  grade(sought, candidate);
+  believe(sought, candidate);
+}
 
 void take_first_steps(const Sought& sought, Candidate& candidate) {
   const RefinementTerms& terms = sought.terms.refinement;

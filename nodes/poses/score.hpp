@@ -20,6 +20,9 @@ constexpr Closeness kAllPoints{{0, true}};
 /// How the scan, as it is now, agrees with a pose.
 Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const Closeness& look);
 
+/// Adds to the fit what patches of the scan lie off by, from at most about so many points; 0: all.
+void measure_residual(const Sought& sought, Candidate& candidate, Eigen::Index points);
+
 /// Sets quality and rank from the fit.
 void grade(const Sought& sought, Candidate& candidate);
 

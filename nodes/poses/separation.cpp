@@ -21,24 +21,32 @@ struct CellHash {
   }
 };
 
+/// Whether two rotations are an angle apart at most: the cosine of half of it.
+bool is_turned_alike(const Hypothesis& a, const Hypothesis& b, float cosine_of_half) {
+  return std::abs(a.rotation.dot(b.rotation)) >= cosine_of_half;
+}
+
+float cosine_of_half(const Separation& separation) { return std::cos(separation.angle / 2); }
+
 /// Poses by where their centres lie: those within `separation.distance` of another lie in its cell
 /// or beside it.
 class Places {
  public:
-  Places(const std::vector<Hypothesis>& poses, const Separation& separation)
-      : poses_(poses),
-        separation_(separation),
+  explicit Places(const Separation& separation)
+      : separation_(separation),
+        cosine_of_half_(cosine_of_half(separation)),
         edge_(std::max(kMargin * static_cast<double>(separation.distance), kLeastEdge)) {}
 
-  void add(std::size_t i) { cells_[cell_of(poses_[i].center)].push_back(i); }
+  void add(const Hypothesis& pose) { cells_[cell_of(pose.center)].push_back(pose); }
 
   /// Whether one that was added is like it, or as many as a place may hold lie there.
   bool suppress(const Hypothesis& pose) const {
     const Cell middle = cell_of(pose.center);
     int here = 0;
-    for (std::int64_t x = -1; x <= 1; ++x)
-      for (std::int64_t y = -1; y <= 1; ++y)
-        for (std::int64_t z = -1; z <= 1; ++z) {
+    // Its own cell first: most that are alike lie there.
+    for (const std::int64_t x : {0, -1, 1})
+      for (const std::int64_t y : {0, -1, 1})
+        for (const std::int64_t z : {0, -1, 1}) {
           const auto cell = cells_.find({middle[0] + x, middle[1] + y, middle[2] + z});
           if (cell != cells_.end() && suppressed_by(cell->second, pose, here)) return true;
         }
@@ -56,35 +64,34 @@ class Places {
     return {index(center.x()), index(center.y()), index(center.z())};
   }
 
-  bool suppressed_by(const std::vector<std::size_t>& others, const Hypothesis& pose,
+  bool suppressed_by(const std::vector<Hypothesis>& others, const Hypothesis& pose,
                      int& here) const {
-    return std::any_of(others.begin(), others.end(), [&](std::size_t i) {
-      if ((pose.center - poses_[i].center).norm() > separation_.distance) return false;
-      return pose.rotation.angularDistance(poses_[i].rotation) <= separation_.angle ||
-             ++here == separation_.per_place;
+    return std::ranges::any_of(others, [&](const Hypothesis& other) {
+      if ((pose.center - other.center).norm() > separation_.distance) return false;
+      return is_turned_alike(pose, other, cosine_of_half_) || ++here == separation_.per_place;
     });
   }
 
-  const std::vector<Hypothesis>& poses_;
   const Separation& separation_;
+  float cosine_of_half_;
   double edge_;  ///< of a cell [m]
-  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
+  std::unordered_map<Cell, std::vector<Hypothesis>, CellHash> cells_;
 };
 
 }  // namespace
 
 bool is_like(const Hypothesis& a, const Hypothesis& b, const Separation& separation) {
   return (a.center - b.center).norm() <= separation.distance &&
-         a.rotation.angularDistance(b.rotation) <= separation.angle;
+         is_turned_alike(a, b, cosine_of_half(separation));
 }
 
 std::vector<std::size_t> separate_poses(const std::vector<Hypothesis>& poses,
                                         const Separation& separation, std::size_t count) {
-  Places places(poses, separation);
+  Places places(separation);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < poses.size() && kept.size() < count; ++i) {
     if (places.suppress(poses[i])) continue;
-    places.add(i);
+    places.add(poses[i]);
     kept.push_back(i);
   }
   return kept;

@@ -142,6 +142,7 @@ TEST_CASE("what leaves more than the instances before is less exact, once refine
   body.scan.usual_residual.add(exact, 0.8);
   poses::Candidate off = body.candidate(beside(0.004));
   poses::judge(body.sought(), off, poses::kAllPoints);
+  poses::measure_residual(body.sought(), off, 0);
   const double rough = off.quality;
   off.is_refined = true;
   REQUIRE(off.fit.systematic > 0.05 * 2 * kResolution);
