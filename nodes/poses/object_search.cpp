@@ -121,9 +121,11 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   Sought near = sought_;  // for support is compared among these
   near.watch = {};
   Candidates pool = collect(near, std::move(there), taken_);
+  const ScheduleTerms& terms = near.terms.schedule;
+  if (std::ssize(pool) > terms.shortlist) pool.resize(static_cast<std::size_t>(terms.shortlist));
   for (Candidate& one : pool)
     one.elsewhere = support_elsewhere(all, one.proposed.center, near.model);
-  sift(near, pool, proposals_.improve, near.terms.schedule.shortlist);
+  sift(near, pool, proposals_.improve, terms.promising);
   bring_finalists_forward(near, pool);
   std::erase_if(pool, [&](const Candidate& one) { return !may_win(near, one); });
   pool.erase(refine_best(near, pool), pool.end());
