@@ -26,11 +26,6 @@ std::vector<std::uint32_t> rows_by_place(const PointMatrix& points, float edge) 
 
 }  // namespace
 
-OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T) {
-  return {T * Eigen::Vector3f(cloud.points.row(i).transpose()),
-          T.linear() * Eigen::Vector3f(cloud.normals.row(i).transpose())};
-}
-
 ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
                          const SurfaceTerms& terms)
     : rows_(rows_by_place(scan.points, kPlace * reach)),
@@ -60,15 +55,6 @@ void ScanSurface::take_out(const std::vector<char>& explained) {
   for (const std::uint32_t i : rows_) hidden.push_back(gone_[i]);
   near_.hide(hidden);
   far_.hide(hidden);
-}
-
-float ScanSurface::facing_cosine(const OrientedPoint& p) const {
-  if (!single_view_) return p.normal.squaredNorm() > 0 ? 1 : 0;
-  const Eigen::Vector3f way = viewpoint_ - p.point;
-  const float along = p.normal.dot(way);
-  if (!(along > 0)) return 0;  // half of all points, without a root
-  const float cosine = along / way.norm();
-  return cosine > facing_cosine_ ? cosine : 0;
 }
 
 NearestPoint ScanSurface::nearest_left(const Eigen::Vector3f& point, float distance) const {

@@ -19,7 +19,10 @@ struct OrientedPoint {
 };
 
 /// Row `i` of a cloud, moved by T.
-OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T);
+inline OrientedPoint posed_point(const Cloud& cloud, Eigen::Index i, const Eigen::Isometry3f& T) {
+  return {T * Eigen::Vector3f(cloud.points.row(i).transpose()),
+          T.linear() * Eigen::Vector3f(cloud.normals.row(i).transpose())};
+}
 
 /// Constants of the method; poses/term_params.cpp says where they come from.
 struct SurfaceTerms {
@@ -43,7 +46,14 @@ class ScanSurface {
   const Eigen::Vector3f& viewpoint() const { return viewpoint_; }
   /// The cosine between a surface's normal and the way to the sensor, which is how large it looks
   /// there; 0 where it does not turn its outside to the sensor. 1 where no single sensor is known.
-  float facing_cosine(const OrientedPoint& p) const;
+  float facing_cosine(const OrientedPoint& p) const {
+    if (!single_view_) return p.normal.squaredNorm() > 0 ? 1 : 0;
+    const Eigen::Vector3f way = viewpoint_ - p.point;
+    const float along = p.normal.dot(way);
+    if (!(along > 0)) return 0;  // half of all points, without a root
+    const float cosine = along / way.norm();
+    return cosine > facing_cosine_ ? cosine : 0;
+  }
   bool faces_sensor(const OrientedPoint& p) const { return facing_cosine(p) > 0; }
   /// The nearest scan point, at most `distance` away, if its normal agrees with p's.
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;
