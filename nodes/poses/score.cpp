@@ -35,22 +35,19 @@ Fit measure(const Sought& sought, const Eigen::Isometry3d& T_scene_model, const 
   return sought.memory->fits.get(
       sought.scan, {T_scene_model, 2 * look.sampling.points + look.sampling.closely, look.reach},
       [&] {
-        return answer_at(
-            sought, T_scene_model, tolerance,
-            measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
-                        sought.scan.view, T_scene_model, static_cast<float>(tolerance),
-                        look.sampling, sought.terms.fit));
+        return answer_at(sought, T_scene_model, tolerance,
+                         measure_fit(sought.model.cloud, sought.model.outline, sought.scan.surface,
+                                     sought.scan.view, T_scene_model, static_cast<float>(tolerance),
+                                     look.sampling, sought.terms.fit));
       });
 }
 
 void measure_residual(const Sought& sought, Candidate& candidate, Eigen::Index points) {
   const Eigen::Isometry3d& T_scene_model = candidate.T_scene_model;
-  const Shared left =
-      sought.memory->residuals.get(sought.scan, {T_scene_model, points}, [&] {
-        return answer_at(sought, T_scene_model,
-                         static_cast<double>(kFarOff * sought.params.tolerance),
-                         systematic_residual(sought, T_scene_model, points));
-      });
+  const Shared left = sought.memory->residuals.get(sought.scan, {T_scene_model, points}, [&] {
+    return answer_at(sought, T_scene_model, static_cast<double>(kFarOff * sought.params.tolerance),
+                     systematic_residual(sought, T_scene_model, points));
+  });
   candidate.fit.systematic = left.deviation;
   candidate.fit.systematic_doubt = left.doubt;
 }
