@@ -35,11 +35,6 @@ void show(const Sought& sought, const char* step, const Candidates& candidates) 
   if (sought.watch) sought.watch(step, candidates);
 }
 
-/// For a second look, which need not be as long.
-void keep_best_supported(Candidates& pool, const ScheduleTerms& terms) {
-  if (std::ssize(pool) > terms.shortlist) pool.resize(static_cast<std::size_t>(terms.shortlist));
-}
-
 /// From what was collected to the order in which they may be finalists.
 void sift(const Sought& sought, Candidates& pool, const Improve& improve, int places) {
   make_shortlist(sought, pool, places);
@@ -70,7 +65,8 @@ void ObjectSearch::propose() {
   {
     const Stopwatch watch(seconds_);
     pool_ = collect(sought_, proposals_.propose(), taken_);
-    if (again) keep_best_supported(pool_, terms);
+    if (again && std::ssize(pool_) > terms.shortlist)
+      pool_.resize(static_cast<std::size_t>(terms.shortlist));
     show(sought_, "peek", pool_);
     sift(sought_, pool_, proposals_.improve, again ? terms.shortlist_again : terms.shortlist);
     // It was told already why nobody convinced.
@@ -127,11 +123,9 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   Sought near = sought_;  // for support is compared among these
   near.watch = {};
   Candidates pool = collect(near, std::move(there), taken_);
-  const ScheduleTerms& terms = near.terms.schedule;
-  keep_best_supported(pool, terms);
   for (Candidate& one : pool)
     one.elsewhere = support_elsewhere(all, one.proposed.center, near.model);
-  sift(near, pool, proposals_.improve, terms.promising);
+  sift(near, pool, proposals_.improve, near.terms.schedule.shortlist);
   bring_finalists_forward(near, pool);
   std::erase_if(pool, [&](const Candidate& one) { return !may_win(near, one); });
   pool.erase(refine_best(near, pool), pool.end());

@@ -7,14 +7,14 @@
 //   glance           the best of these, 600      the same, by the nearest points of the scan, with
 //                    (160)                       twice the tolerance, as proposals lie off by part
 //                                                of a bandwidth
-//   sketch           the shortlist, 160 (10, 40) 300, after their proposer improved them
+//   sketch           the shortlist, 160 (10)     300, after their proposer improved them
 //   bring closer     the promising, 40           300, after the first steps of ICP
 //   look             those that may be finalists 1000
 //   refine           the finalists, 4, and twins 4000, after ICP
 //   polish           the one that is chosen      all points, after ICP by ten thousand
 //
-// In brackets: in a second look, of an object that convinced nobody when more was in the scan, or
-// beside a doubtful pose. The numbers are ScheduleTerms and RefinementTerms.
+// In brackets: of an object that convinced nobody when more was in the scan. The numbers are
+// ScheduleTerms and RefinementTerms.
 #pragma once
 
 #include <functional>

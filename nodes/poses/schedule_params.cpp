@@ -14,15 +14,15 @@ void add_schedule_terms(Node& node) {
        "grows with it.",
        in_range(1, 10000));
   term("shortlist", &G::shortlist, "poses",
-       "Improved and sketched; in a second look, glanced at. As many as keep the true pose of a "
+       "Improved and sketched; of an object that convinced nobody, glanced at. As many as keep the "
+       "true pose of a "
        "thing hardly seen; time grows with it, by a neighbourhood query each.",
        in_range(1, 10000));
   term("shortlist_again", &G::shortlist_again, "poses",
        "Likewise, of an object that convinced nobody when more was in the scan. 0: it is not asked "
        "for again.",
        in_range(0, 10000));
-  term("promising", &G::promising, "poses",
-       "Brought closer by coarse ICP; beside a doubtful pose, sketched. Time grows with it.",
+  term("promising", &G::promising, "poses", "Brought closer by coarse ICP. Time grows with it.",
        in_range(0, 10000));
   term("finalists", &G::finalists, "poses",
        "Refined by ICP. Of more than four hardly any wins; time grows with it.", in_range(1, 1000));
