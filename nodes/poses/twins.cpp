@@ -132,8 +132,6 @@ std::vector<LookAlike> look_alikes(const Sought& sought, const Candidate& candid
 
 Candidate best_alike(const Sought& sought, const Candidate& candidate, const TakenPlaces& taken) {
   Candidates twins = make_twins(sought, candidate);
-  std::erase_if(twins, [&](const Candidate& twin) { return !may_win(sought, twin); });
-  if (twins.empty()) return candidate;
   twins.erase(refine_best(sought, twins), twins.end());
   Candidate best = candidate;
   double highest = 0;
