@@ -114,12 +114,13 @@ void try_contour(const Sought& sought, Candidate& candidate, Kind kind,
 
 }  // namespace
 
-/// Exactness only takes from a confidence, and is asked for last, since it takes as long as all else.
+/// Exactness only takes from a confidence, and is asked for last, since it takes longer than the fit.
 void judge_closely(const Sought& sought, Candidate& candidate, const Closeness& look) {
   judge(sought, candidate, look);
   believe(sought, candidate);
   if (candidate.confidence <= kHopeless) return;
   measure_residual(sought, candidate, look.sampling.points);
+  if (exactness(sought, candidate) == 1) return;
   grade(sought, candidate);
   believe(sought, candidate);
 }
