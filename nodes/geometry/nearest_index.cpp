@@ -21,8 +21,8 @@ constexpr std::int64_t kSide = 1 << kShift;
 constexpr std::uint32_t kCubesPerBlock = kSide * kSide * kSide;
 constexpr std::size_t kFewestSlots = 64;
 constexpr std::size_t kPointsPerBlock = 8;  // at least, on average: more memory serves nobody
-constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kFreeBlocks = 128;  // of which that is not asked
+constexpr float kNowhere = std::numeric_limits<float>::infinity();  // farther than any distance
+constexpr std::size_t kFreeBlocks = 128;                            // of which that is not asked
 
 /// The key of a block's place. Blocks so far apart that their places wrap share a key, which costs looks
 /// at points that are too far, no more.
@@ -148,7 +148,9 @@ inline double size_of(const Span& span) {
 class NearestIndex::Search {
  public:
   Search(const NearestIndex& index, const Eigen::Vector3f& center, float distance)
-      : index_(index), center_(center.data()), farthest_(distance * distance) {}
+      : index_(index),
+        center_(center.data()),
+        farthest_(std::min(distance * distance, std::numeric_limits<float>::max())) {}
 
   void look(std::uint32_t begin, std::uint32_t end) {
     if (count_ == kRuns) look_up();

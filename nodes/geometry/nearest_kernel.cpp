@@ -14,14 +14,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kGroup>;
 using Indices = hn::RebindToUnsigned<Floats>;
 
-NearestPoint nearest(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
-                     const float* center, float farthest) {
+/// Calls with the squared distances and the numbers of so many points as there are lanes, until all
+/// of the runs were seen.
+template <class See>
+HWY_INLINE void for_each(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
+                         const float* center, See see) {
   const Floats d;
-  const Indices u;
   const auto cx = hn::Set(d, center[0]), cy = hn::Set(d, center[1]), cz = hn::Set(d, center[2]);
-  auto least = hn::Set(d, farthest);
-  const auto none = hn::Set(u, NearestPoint{}.index);
-  auto index = none;
   for (std::size_t r = 0; r < run_count; ++r)
     for (std::size_t i = runs[r].begin / hn::Lanes(d) * hn::Lanes(d); i < runs[r].end;
          i += hn::Lanes(d)) {
@@ -30,21 +29,48 @@ NearestPoint nearest(const PointGroup* groups, const GridRun* runs, std::size_t 
       const auto dx = hn::Sub(hn::Load(d, group.x + at), cx);
       const auto dy = hn::Sub(hn::Load(d, group.y + at), cy);
       const auto dz = hn::Sub(hn::Load(d, group.z + at), cz);
-      const auto squared = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      // Without a branch for where none is near: it would be guessed wrong too often.
-      const auto near = hn::Le(squared, least);
-      const auto here = hn::Load(u, group.index + at);
-      const auto first = hn::Or(hn::RebindMask(u, hn::Lt(squared, least)), hn::Lt(here, index));
-      const auto better = hn::And(hn::RebindMask(u, near), first);
-      least = hn::IfThenElse(hn::RebindMask(d, better), squared, least);
-      index = hn::IfThenElse(better, here, index);
+      see(hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz)),
+          hn::Load(Indices(), group.index + at));
     }
-  const auto found = hn::Ne(index, none);
-  if (hn::AllFalse(u, found)) return {};
-  const auto minimum =
-      hn::MinOfLanes(d, hn::IfThenElse(hn::RebindMask(d, found), least, hn::Set(d, farthest)));
-  const auto first = hn::IfThenElse(hn::RebindMask(u, hn::Eq(least, minimum)), index, none);
-  return {hn::GetLane(hn::MinOfLanes(u, first)), hn::GetLane(minimum)};
+}
+
+/// The smallest index of those at this squared distance.
+std::uint32_t first_at(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
+                       const float* center, float squared) {
+  const Floats d;
+  auto first = hn::Set(Indices(), NearestPoint::kNone);
+  for_each(groups, runs, run_count, center, [&](auto there, auto index) HWY_ATTR {
+    const auto equal = hn::RebindMask(Indices(), hn::Eq(there, hn::Set(d, squared)));
+    first = hn::IfThenElse(equal, hn::Min(first, index), first);
+  });
+  return hn::GetLane(hn::MinOfLanes(Indices(), first));
+}
+
+NearestPoint nearest(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
+                     const float* center, float farthest) {
+  const Floats d;
+  auto least = hn::Set(d, farthest);
+  auto nearest = hn::Set(Indices(), NearestPoint::kNone);
+  auto ties = hn::Lt(least, least);  // none
+  // No branch for where none is near, it would be guessed wrong too often. Ties, which are rare, are
+  // only noticed, so that what comes next waits for a minimum, no more.
+  for_each(groups, runs, run_count, center, [&](auto squared, auto index) HWY_ATTR {
+    const auto nearer = hn::Lt(squared, least);
+    const auto other = hn::RebindMask(d, hn::Ne(index, nearest));
+    ties = hn::Or(ties, hn::And(hn::Eq(squared, least), other));
+    least = hn::Min(squared, least);
+    nearest = hn::IfThenElse(hn::RebindMask(Indices(), nearer), index, nearest);
+  });
+  const bool none =
+      hn::AllTrue(Indices(), hn::Eq(nearest, hn::Set(Indices(), NearestPoint::kNone)));
+  if (none && hn::AllFalse(d, ties)) return {};
+  const auto minimum = hn::MinOfLanes(d, least);
+  const float squared = hn::GetLane(minimum);
+  const auto at_minimum = hn::Eq(least, minimum);
+  if (!hn::AllFalse(d, ties) || hn::CountTrue(d, at_minimum) > 1)
+    return {first_at(groups, runs, run_count, center, squared), squared};
+  const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, at_minimum));
+  return {hn::ExtractLane(nearest, lane), squared};
 }
 
 }  // namespace posevote::geometry::HWY_NAMESPACE

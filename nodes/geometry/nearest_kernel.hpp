@@ -12,7 +12,7 @@ namespace posevote::geometry {
 constexpr std::size_t kGroup = 8;  ///< points
 
 /// Points that lie together in memory, two lines of it: most runs touch no more than two groups. A
-/// point that has a coordinate that is not a number is never found.
+/// point that has an infinite coordinate is never found.
 struct alignas(128) PointGroup {
   float x[kGroup], y[kGroup], z[kGroup];
   std::uint32_t index[kGroup];  ///< the point's own number
@@ -28,7 +28,7 @@ struct NearestPoint {
   explicit operator bool() const { return index != kNone; }
 };
 
-/// The nearest of all points in some runs, at most the square root of `farthest` away; of several at
+/// The nearest of all points in some runs, at most the square root of `farthest`, which is finite, away; of several at
 /// one distance the one with the smallest index. Those that share a group with a run may be found,
 /// too.
 NearestPoint nearest_in_runs(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
