@@ -84,8 +84,13 @@ std::vector<IcpPair> contour_pairs(const Cloud& model, const ScanSurface& scan,
     pair.weight = biweight(static_cast<double>(1 - *off * *off / (reach * reach)));
     return pair;
   };
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::vector<IcpPair> pairs =
-      strewn_pairs(model, T_scene_model.cast<float>(), terms.points, pair_of);
+      strewn_pairs(model, terms.points,
+                   [&](const Strewn& rows, std::size_t begin, std::size_t end, const auto& add) {
+                     for (std::size_t k = begin; k < end; ++k)
+                       add(k, pair_of(posed_point(model, rows[k], T)));
+                   });
   const double spread = terms.spread * static_cast<double>(resolution);
   weigh_beside_planes(pairs, variance, spread, static_cast<double>(resolution));
   return pairs;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "nodes/geometry/facing_points.hpp"
+
 namespace posevote::geometry {
 namespace {
 
@@ -11,7 +13,6 @@ constexpr double kLeastVariance = 0.05;  // x resolution^2: no scan's planes hol
 
 IcpPair find_partner(const OrientedPoint& p, const ScanSurface& scan, float distance) {
   IcpPair pair;
-  if (!scan.faces_sensor(p)) return pair;
   const std::optional<OrientedPoint> partner = scan.nearest_compatible(p, distance);
   if (!partner) return pair;
   const Eigen::Vector3f offset = p.point - partner->point;
@@ -27,8 +28,13 @@ IcpPair find_partner(const OrientedPoint& p, const ScanSurface& scan, float dist
 std::vector<IcpPair> find_icp_pairs(const Cloud& model, const ScanSurface& scan,
                                     const Eigen::Isometry3f& T_scene_model, float distance,
                                     Eigen::Index most) {
-  return strewn_pairs(model, T_scene_model, most,
-                      [&](const OrientedPoint& p) { return find_partner(p, scan, distance); });
+  return strewn_pairs(model, most,
+                      [&](const Strewn& rows, std::size_t begin, std::size_t end, const auto& add) {
+                        for_each_facing(model, rows, begin, end, T_scene_model, scan,
+                                        [&](std::size_t k, const OrientedPoint& p, float) {
+                                          add(k, find_partner(p, scan, distance));
+                                        });
+                      });
 }
 
 void weigh_beside_planes(std::vector<IcpPair>& pairs, double variance, double spread,

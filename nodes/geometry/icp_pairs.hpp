@@ -28,17 +28,17 @@ double biweight(Number inside) {
   return static_cast<double>(inside > 0 ? inside * inside : 0);
 }
 
-/// What find(point) makes of about `most` points of a posed model, those of no weight left out; safe
-/// to call from many threads.
+/// What is found of about `most` points of a model, but for pairs of no weight. find(rows, begin, end,
+/// add) calls add(k, pair) of rows[k], for any of begin to end - 1; from many threads.
 template <class Find>
-std::vector<IcpPair> strewn_pairs(const Cloud& model, const Eigen::Isometry3f& T_scene_model,
-                                  Eigen::Index most, const Find& find) {
+std::vector<IcpPair> strewn_pairs(const Cloud& model, Eigen::Index most, const Find& find) {
   const Strewn rows(model.points.rows(), most);
   std::vector<IcpPair> pairs(rows.size());
-  graph::parallel_for(pairs.size(), 256, [&](std::size_t i) {
-    const Eigen::Index row = rows[i];
-    pairs[i] = find(posed_point(model, row, T_scene_model));
-    pairs[i].row = row;
+  graph::parallel_ranges(pairs.size(), 256, [&](std::size_t begin, std::size_t end) {
+    find(rows, begin, end, [&](std::size_t k, const IcpPair& pair) {
+      pairs[k] = pair;
+      pairs[k].row = rows[k];
+    });
   });
   std::erase_if(pairs, [](const IcpPair& pair) { return !(pair.weight > 0); });
   return pairs;

@@ -57,6 +57,16 @@ void ScanSurface::take_out(const std::vector<char>& explained) {
   far_.hide(hidden);
 }
 
+Posing ScanSurface::posing(const Eigen::Isometry3f& T_scene_model) const {
+  Posing posing{};
+  Eigen::Matrix3f::Map(&posing.rotation[0][0]) = T_scene_model.linear();
+  Eigen::Vector3f::Map(posing.translation) = T_scene_model.translation();
+  Eigen::Vector3f::Map(posing.viewpoint) = viewpoint_;
+  posing.least_cosine = facing_cosine_;
+  posing.single_view = single_view_;
+  return posing;
+}
+
 NearestPoint ScanSurface::nearest_left(const Eigen::Vector3f& point, float distance) const {
   // What is found within reach spares a look at all that is farther.
   const NearestPoint near = near_.nearest(point, std::min(distance, reach_));

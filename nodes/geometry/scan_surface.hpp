@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nodes/data/cloud.hpp"
+#include "nodes/geometry/facing_kernel.hpp"
 #include "nodes/geometry/nearest_index.hpp"
 
 namespace posevote::geometry {
@@ -54,6 +55,8 @@ class ScanSurface {
     const float cosine = along / way.norm();
     return cosine > facing_cosine_ ? cosine : 0;
   }
+  /// The same of many points at a time (facing_points.hpp).
+  Posing posing(const Eigen::Isometry3f& T_scene_model) const;
   bool faces_sensor(const OrientedPoint& p) const { return facing_cosine(p) > 0; }
   /// The nearest scan point, at most `distance` away, if its normal agrees with p's.
   std::optional<OrientedPoint> nearest_compatible(const OrientedPoint& p, float distance) const;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nodes/color/srgb.hpp"
-#include "nodes/geometry/strewn.hpp"
+#include "nodes/geometry/facing_points.hpp"
 #include "nodes/poses/sought.hpp"
 
 namespace posevote::poses {
@@ -46,16 +46,15 @@ std::vector<Patch> pairs_of(const Sought& sought, const Eigen::Isometry3d& T_sce
   const float edge = static_cast<float>(sought.terms.color.patch) * sought.model.diagonal;
   const geometry::Strewn rows(model.points.rows(), points);
   std::vector<Patch> pairs;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
+  const auto pair_up = [&](std::size_t k, const geometry::OrientedPoint& p, float) {
     const Eigen::Index i = rows[k];
-    const geometry::OrientedPoint p = geometry::posed_point(model, i, T);
-    if (!sought.scan.surface.faces_sensor(p)) continue;
     const auto row = sought.scan.surface.compatible_row(p, sought.params.tolerance);
-    if (!row) continue;
+    if (!row) return;
     pairs.push_back({cube_of(model.points.row(i).transpose() - sought.model.center, edge), 1,
                      sought.look->lab.row(i).transpose().cast<double>(),
                      sought.scan.look.lab.row(*row).transpose().cast<double>()});
-  }
+  };
+  geometry::for_each_facing(model, rows, 0, rows.size(), T, sought.scan.surface, pair_up);
   return pairs;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "graph/parallel.hpp"
+#include "nodes/geometry/facing_points.hpp"
 #include "nodes/geometry/spread.hpp"
 #include "nodes/geometry/strewn.hpp"
 
@@ -61,9 +62,8 @@ Judged judge_by_range(const geometry::OrientedPoint& p, float apparent, const Se
   return {before < -sensed.clear_distance ? Verdict::kHidden : there, apparent, 0, p.normal};
 }
 
-Judged judge(const geometry::OrientedPoint& p, const Sensed& sensed) {
-  const float apparent = sensed.scan.facing_cosine(p);
-  if (apparent == 0) return {};
+/// Likewise, by the nearest point.
+Judged judge(const geometry::OrientedPoint& p, float apparent, const Sensed& sensed) {
   if (const auto partner = sensed.scan.nearest_compatible(p, sensed.tolerance))
     return {Verdict::kSupported, apparent,
             static_cast<double>((p.point - partner->point).dot(partner->normal)), partner->normal};
@@ -189,11 +189,13 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const geometry::Strewn rows(model.points.rows(), sampling.points);
   std::vector<Judged> points(rows.size());
-  const auto posed = [&](std::size_t i) { return geometry::posed_point(model, rows[i], T); };
-  graph::parallel_for(points.size(), 512, [&](std::size_t i) {
-    points[i] = judge(posed(i), sensed);
+  const auto judge_one = [&](std::size_t i, const geometry::OrientedPoint& p, float apparent) {
+    points[i] = judge(p, apparent, sensed);
     points[i].at_bend = points[i].apparent > 0 && points[i].verdict != Verdict::kHidden &&
                         is_at_bend(model, outline, rows[i], T, scan);
+  };
+  graph::parallel_ranges(points.size(), 512, [&](std::size_t begin, std::size_t end) {
+    geometry::for_each_facing(model, rows, begin, end, T, scan, judge_one);
   });
   Fit fit = count(points);
   fit.stands_for = static_cast<double>(rows.stride());
@@ -203,7 +205,7 @@ Fit measure_fit(const Cloud& model, const Outline& outline, const geometry::Scan
   graph::parallel_for(points.size(), 512, [&](std::size_t i) {
     if (points[i].verdict != Verdict::kSupported) return;
     const Eigen::Index row = rows[i];
-    const Eigen::Vector3f normal = posed(i).normal;
+    const Eigen::Vector3f normal = geometry::posed_point(model, row, T).normal;
     geometry::for_each_end(model, outline, row, [&](const Eigen::Vector3f& end) {
       count_end(look_at_end({T * end, normal}, sensed, stander, height), beside[i].ends,
                 beside[i].overhang);
@@ -226,11 +228,10 @@ Fit measure_by_range(const Cloud& model, const geometry::ScanSurface& scan,
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const geometry::Strewn rows(model.points.rows(), points);
   std::vector<Judged> judged(rows.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const geometry::OrientedPoint p = geometry::posed_point(model, rows[k], T);
-    if (const float apparent = scan.facing_cosine(p); apparent > 0)
-      judged[k] = judge_by_range(p, apparent, sensed, Verdict::kSupported);
-  }
+  geometry::for_each_facing(model, rows, 0, rows.size(), T, scan,
+                            [&](std::size_t k, const geometry::OrientedPoint& p, float apparent) {
+                              judged[k] = judge_by_range(p, apparent, sensed, Verdict::kSupported);
+                            });
   Fit fit = count(judged);
   fit.stands_for = static_cast<double>(rows.stride());
   return fit;
@@ -245,7 +246,10 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
   std::vector<Judged> judged;
   judged.reserve(points.size());
   for (const std::uint32_t i : points) {
-    Judged one = judge(geometry::posed_point(model, i, T), sensed);
+    const geometry::OrientedPoint p = geometry::posed_point(model, i, T);
+    const float apparent = scan.facing_cosine(p);
+    if (apparent == 0) continue;
+    Judged one = judge(p, apparent, sensed);
     if (one.verdict != Verdict::kSupported && one.apparent < kGrazing) continue;
     one.apparent = 1;  // all alike, so that their number tells how sure the balance is
     judged.push_back(one);
@@ -257,43 +261,6 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
 double lead_of(const Evidence& one, const Evidence& other) {
   const auto sides = static_cast<double>(one.sides + other.sides);
   return sides > 0 ? (one.balance - other.balance) / std::sqrt(sides) : 0;
-}
-
-// quality = agreement x evidence x continuity.
-//
-// Agreement is the share of supporters among the points that take a side, as large as they look.
-// Points that are hidden, beside the image, or missed at a grazing angle take none, so a true pose
-// of which a tenth is visible still agrees. A point that the sensor saw through speaks fully
-// against the pose; one that met another surface or no measurement counts half, because noise,
-// clutter in contact and drop-outs do that to true poses too.
-//
-// Agreement alone would let a body sunk into a table grade high: its cap is supported, the rest is
-// hidden. Evidence is therefore what the support could only show by fitting: the supported share of
-// what faces the sensor, times what there is to go by: the relief of the scan there, and how much
-// of the model's outline is met by the scan's (all that shows the pose of a flat side). Measured on
-// bin-picking scans, false poses on flat ground reach inliers 0.16 x relief 0.015, true poses
-// 0.35..0.7 x 0.3..0.5; on a laser scan 0.4..0.75 x 0.3..0.5 where false ones stay below 0.15 x
-// 0.3.
-//
-// Continuity is the share of the outline beyond which the scan does not go on. All factors are
-// ratios, so that the quality does not depend on the object's size or the sampling.
-double fit_quality(const Fit& fit, const FitTerms& terms) {
-  if (fit.supported == 0) return 0;
-  const FitShares shares = shares_of(fit, terms);
-  const double clues = fit.relief + terms.outline_weight * shares.outline;
-  const double evidence = 1 - std::exp(-fit.inlier_fraction * clues / terms.convincing);
-  return shares.agreement * evidence * shares.continuity;
-}
-
-FitShares shares_of(const Fit& fit, const FitTerms& terms) {
-  const auto supported = static_cast<double>(fit.supported);
-  const double looks = geometry::kOutlineDirections * supported;
-  const auto ends = static_cast<double>(fit.ends), overhang = static_cast<double>(fit.overhang);
-  const auto gaps = static_cast<double>(fit.gaps), filled = static_cast<double>(fit.filled);
-  const double few = terms.few_ends * looks;
-  const double agreeing = fit.apparent.supported;
-  return {agreeing / (agreeing + fit.apparent.against(terms)), (ends - overhang) / looks,
-          1 - overhang / (ends + few), (gaps - filled) / looks};
 }
 
 }  // namespace posevote::poses

@@ -111,8 +111,8 @@ struct FitShares {
 /// Of a fit that has supported points.
 FitShares shares_of(const Fit& fit, const FitTerms& terms = {});
 
-/// In [0, 1]: how much of what should be visible is there, times how much there is to go by; the
-/// .cpp gives the reasons.
+/// In [0, 1]: how much of what should be visible is there, times how much there is to go by;
+/// fit_quality.cpp gives the reasons.
 double fit_quality(const Fit& fit, const FitTerms& terms = {});
 
 }  // namespace posevote::poses

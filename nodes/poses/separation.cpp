@@ -29,25 +29,28 @@ bool is_turned_alike(const Hypothesis& a, const Hypothesis& b, float cosine_of_h
 float cosine_of_half(const Separation& separation) { return std::cos(separation.angle / 2); }
 
 /// Poses by where their centres lie: those within `separation.distance` of another lie in its cell
-/// or beside it.
+/// or, since a cell is twice as wide, on the side of it that is nearer, along each axis.
 class Places {
  public:
   explicit Places(const Separation& separation)
       : separation_(separation),
         cosine_of_half_(cosine_of_half(separation)),
-        edge_(std::max(kMargin * static_cast<double>(separation.distance), kLeastEdge)) {}
+        edge_(std::max(2 * kMargin * static_cast<double>(separation.distance), kLeastEdge)) {}
 
-  void add(const Hypothesis& pose) { cells_[cell_of(pose.center)].push_back(pose); }
+  void add(const Hypothesis& pose) {
+    const auto in = [&](Eigen::Index axis) { return cells_at(pose.center[axis]).own; };
+    cells_[{in(0), in(1), in(2)}].push_back(pose);
+  }
 
   /// Whether one that was added is like it, or as many as a place may hold lie there.
   bool suppress(const Hypothesis& pose) const {
-    const Cell middle = cell_of(pose.center);
+    const Beside x = cells_at(pose.center.x()), y = cells_at(pose.center.y()),
+                 z = cells_at(pose.center.z());
     int here = 0;
-    // Its own cell first: most that are alike lie there.
-    for (const std::int64_t x : {0, -1, 1})
-      for (const std::int64_t y : {0, -1, 1})
-        for (const std::int64_t z : {0, -1, 1}) {
-          const auto cell = cells_.find({middle[0] + x, middle[1] + y, middle[2] + z});
+    for (const std::int64_t i : {x.own, x.nearest})
+      for (const std::int64_t j : {y.own, y.nearest})
+        for (const std::int64_t k : {z.own, z.nearest}) {
+          const auto cell = cells_.find({i, j, k});
           if (cell != cells_.end() && suppressed_by(cell->second, pose, here)) return true;
         }
     return false;
@@ -57,11 +60,15 @@ class Places {
   static constexpr double kMargin = 1.001;    // for what rounding does at a distance of just one
   static constexpr double kLeastEdge = 1e-6;  // [m]
 
-  Cell cell_of(const Eigen::Vector3f& center) const {
-    const auto index = [this](float x) {
-      return static_cast<std::int64_t>(std::floor(static_cast<double>(x) / edge_));
-    };
-    return {index(center.x()), index(center.y()), index(center.z())};
+  /// Along an axis.
+  struct Beside {
+    std::int64_t own, nearest;
+  };
+
+  Beside cells_at(float x) const {
+    const double in_edges = static_cast<double>(x) / edge_, own = std::floor(in_edges);
+    return {static_cast<std::int64_t>(own),
+            static_cast<std::int64_t>(in_edges - own < 0.5 ? own - 1 : own + 1)};
   }
 
   bool suppressed_by(const std::vector<Hypothesis>& others, const Hypothesis& pose,
