@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <memory>
+#include <new>
 #include <stdexcept>
 
 namespace posevote::library {
@@ -23,13 +23,12 @@ std::string hex(XXH128_hash_t hash) {
   return text;
 }
 
-void hash_text(XXH3_state_t* state, std::string_view text) {
-  const std::uint64_t length = text.size();
-  XXH3_128bits_update(state, &length, sizeof length);
-  XXH3_128bits_update(state, text.data(), text.size());
+/// A number's own bytes.
+std::string_view bytes_of(const std::uint64_t& number) {
+  return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
-void hash_file(XXH3_state_t* state, const fs::path& path) {
+void hash_file(Checksum& sum, const fs::path& path) {
   std::error_code is_loop;  // of links
   std::ifstream stream(path, std::ios::binary);
   if (!stream || fs::is_directory(path, is_loop))
@@ -38,26 +37,43 @@ void hash_file(XXH3_state_t* state, const fs::path& path) {
   std::uint64_t length = 0;
   while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
     length += static_cast<std::uint64_t>(stream.gcount());
-    XXH3_128bits_update(state, buffer.data(), static_cast<std::size_t>(stream.gcount()));
+    sum.add({buffer.data(), static_cast<std::size_t>(stream.gcount())});
   }
   if (stream.bad()) throw std::runtime_error(path.string() + ": cannot be read");
-  XXH3_128bits_update(state, &length, sizeof length);
+  sum.add(bytes_of(length));
 }
 
 }  // namespace
+
+struct Checksum::State {
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash{XXH3_createState(),
+                                                                &XXH3_freeState};
+};
+
+Checksum::Checksum() : state_(std::make_unique<State>()) {
+  if (!state_->hash) throw std::bad_alloc();
+  XXH3_128bits_reset(state_->hash.get());
+}
+
+Checksum::~Checksum() = default;
+
+void Checksum::add(std::string_view bytes) {
+  XXH3_128bits_update(state_->hash.get(), bytes.data(), bytes.size());
+}
+
+std::string Checksum::hex() const { return library::hex(XXH3_128bits_digest(state_->hash.get())); }
 
 std::string checksum(std::string_view bytes) {
   return hex(XXH3_128bits(bytes.data(), bytes.size()));
 }
 
 std::string hash_files(const std::vector<fs::path>& files, const std::string& text) {
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                       &XXH3_freeState);
-  if (!state) throw std::bad_alloc();
-  XXH3_128bits_reset(state.get());
-  for (const fs::path& file : files) hash_file(state.get(), file);
-  hash_text(state.get(), text);
-  return hex(XXH3_128bits_digest(state.get()));
+  Checksum sum;
+  for (const fs::path& file : files) hash_file(sum, file);
+  const std::uint64_t length = text.size();
+  sum.add(bytes_of(length));
+  sum.add(text);
+  return sum.hex();
 }
 
 }  // namespace posevote::library

@@ -49,7 +49,13 @@ ModelLibrary parse(std::string_view bytes, const std::string& key) {
 
 }  // namespace
 
-std::string hash_library(const ModelLibrary& library) { return checksum(encode_library(library)); }
+std::string hash_library(const ModelLibrary& library) {
+  Checksum sum;
+  ByteWriter out([&](std::string_view piece) { sum.add(piece); });
+  encode_library(library, out);
+  out.finish();
+  return sum.hex();
+}
 
 void save_library(const ModelLibrary& library, const fs::path& path, const std::string& key) {
   if (fs::exists(path) && !fs::is_regular_file(path)) fail(path, "is there, and no plain file");
@@ -60,7 +66,7 @@ void save_library(const ModelLibrary& library, const fs::path& path, const std::
   out.put(key);
   out.put(checksum(payload));
   out.put(payload);
-  graph::write_file(path, out.bytes());
+  graph::write_file(path, out.take());
 }
 
 std::optional<ModelLibrary> load_library(const fs::path& path, const std::string& key,

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/library/library_payload.hpp"
 
+#include <cstring>
+#include <memory>
 #include <utility>
+#include <vector>
 
+#include "graph/parallel.hpp"
 #include "nodes/descriptors/descriptor_index.hpp"
 #include "nodes/geometry/extreme_points.hpp"
 #include "nodes/library/check_library.hpp"
@@ -19,7 +23,7 @@ void put_cloud(ByteWriter& out, const Cloud& cloud) {
 
 void put_numbers(ByteWriter& out, const std::vector<std::uint32_t>& numbers) {
   out.put(std::uint64_t{numbers.size()});
-  for (const std::uint32_t number : numbers) out.put(number);
+  out.put_all(numbers.data(), numbers.size());
 }
 
 void put_features(ByteWriter& out, const FeatureSet& features) {
@@ -73,9 +77,12 @@ void put_model(ByteWriter& out, const Model& model) {
 }
 
 std::vector<std::uint32_t> get_numbers(ByteReader& in) {
-  std::vector<std::uint32_t> numbers;
   const auto count = in.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < count; ++i) numbers.push_back(in.get<std::uint32_t>());
+  if (count > in.rest().size() / sizeof(std::uint32_t))
+    throw std::runtime_error("is damaged: it ends within a list of numbers");
+  std::vector<std::uint32_t> numbers(count);
+  const std::string_view values = in.take(count * sizeof(std::uint32_t));
+  if (count > 0) std::memcpy(numbers.data(), values.data(), values.size());
   return numbers;
 }
 
@@ -131,9 +138,16 @@ FeatureSet get_features(ByteReader& in) {
   return features;
 }
 
-/// `depth`: a model's coarser octaves have none themselves.
-Model get_model(ByteReader& in, int depth = 0) {
-  Model model;
+/// A model that was read, and the steps of its indices, which are made anew; 0: it has none.
+struct Unindexed {
+  std::shared_ptr<Model> model;
+  float pair_step = 0, rim_step = 0;
+};
+
+/// Adds it and its coarser octaves, which have none themselves, to `all`.
+std::shared_ptr<const Model> get_model(ByteReader& in, std::vector<Unindexed>& all, int depth = 0) {
+  const auto read = std::make_shared<Model>();
+  Model& model = *read;
   model.name = in.get_text();
   model.obj_id = in.get<std::int32_t>();
   model.resolution = in.get<float>();
@@ -156,25 +170,35 @@ Model get_model(ByteReader& in, int depth = 0) {
   model.outline.gap_reach = in.get<float>();
   const std::string_view gaps = in.get_text();
   model.outline.gaps.assign(gaps.begin(), gaps.end());
-  model.outline.hull = geometry::extreme_points(model.cloud.points).cast<float>();
   model.outline.bends = get_numbers(in);
   const auto pair_step = in.get<float>();
   const auto rim_step = in.get<float>();
+  all.push_back({read, pair_step, rim_step});
   const auto coarser = in.get<std::uint64_t>();
   if (depth > 0 && coarser > 0) throw std::runtime_error("is damaged: an octave has octaves");
   for (std::uint64_t i = 0; i < coarser; ++i)
-    model.coarser.push_back(std::make_shared<const Model>(get_model(in, depth + 1)));
-  if (pair_step != 0) model.pairs = pairs::index_pairs(model, pair_step);
-  if (rim_step != 0) model.rims = pairs::index_rims(model, rim_step);
-  return model;
+    model.coarser.push_back(get_model(in, all, depth + 1));
+  return read;
+}
+
+void make_indices(const Unindexed& read) {
+  Model& model = *read.model;
+  model.outline.hull = geometry::extreme_points(model.cloud.points).cast<float>();
+  if (read.pair_step != 0) model.pairs = pairs::index_pairs(model, read.pair_step);
+  if (read.rim_step != 0) model.rims = pairs::index_rims(model, read.rim_step);
 }
 
 }  // namespace
 
 std::string encode_library(const ModelLibrary& library) {
+  ByteWriter out;
+  encode_library(library, out);
+  return out.take();
+}
+
+void encode_library(const ModelLibrary& library, ByteWriter& out) {
   check_library(library);
   if (library.octaves.empty()) throw std::runtime_error("the library has no index");
-  ByteWriter out;
   const descriptors::IndexOptions& options = library.octaves[0].index->options();
   out.put(options.search);
   out.put(std::int32_t{options.trees});
@@ -187,7 +211,6 @@ std::string encode_library(const ModelLibrary& library) {
     out.put(std::int32_t{model.obj_id});
     out.put(model.why);
   }
-  return out.bytes();
 }
 
 ModelLibrary decode_library(std::string_view bytes) {
@@ -198,8 +221,9 @@ ModelLibrary decode_library(std::string_view bytes) {
   options.trees = in.get<std::int32_t>();
   options.checks = in.get<std::int32_t>();
   const auto count = in.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < count; ++i)
-    library.models.push_back(std::make_shared<const Model>(get_model(in)));
+  std::vector<Unindexed> read;
+  for (std::uint64_t i = 0; i < count; ++i) library.models.push_back(get_model(in, read));
+  graph::parallel_for(read.size(), 1, [&](std::size_t i) { make_indices(read[i]); });
   const auto left_out = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < left_out; ++i) {
     LeftOutModel& model = library.left_out.emplace_back();

@@ -5,10 +5,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "nodes/data/model.hpp"
 
@@ -17,23 +19,50 @@ namespace posevote::library {
 /// Appends values, lengths before contents.
 class ByteWriter {
  public:
+  using Sink = std::function<void(std::string_view piece)>;
+
+  ByteWriter() = default;
+  /// Keeps nothing, but hands on piece by piece, the last at finish().
+  explicit ByteWriter(Sink sink) : sink_(std::move(sink)) {}
+
   template <class T>
   requires std::is_arithmetic_v<T>
-  void put(T value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void put(T value) { put_all(&value, 1); }
   void put(std::string_view text) {
     put(std::uint64_t{text.size()});
-    bytes_ += text;
+    put_all(text.data(), text.size());
   }
   template <class Matrix>
   void put_matrix(const Matrix& matrix) {
     put(static_cast<std::uint64_t>(matrix.rows()));
     put(static_cast<std::uint64_t>(matrix.cols()));
-    bytes_.append(reinterpret_cast<const char*>(matrix.data()),
-                  static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar));
+    put_all(matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
-  const std::string& bytes() const { return bytes_; }
+  /// As they lie in memory, without their number.
+  template <class T>
+  void put_all(const T* values, std::size_t count) {
+    append({reinterpret_cast<const char*>(values), count * sizeof(T)});
+  }
+
+  void finish() { hand_on(bytes_), bytes_.clear(); }
+  /// All that was not handed on.
+  std::string take() { return std::move(bytes_); }
 
  private:
+  static constexpr std::size_t kPiece = 1 << 20;
+
+  void append(std::string_view values) {
+    if (sink_ && bytes_.size() + values.size() > kPiece) finish();
+    if (sink_ && values.size() > kPiece)
+      hand_on(values);
+    else
+      bytes_ += values;
+  }
+  void hand_on(std::string_view piece) {
+    if (sink_) sink_(piece);
+  }
+
+  Sink sink_;
   std::string bytes_;
 };
 
@@ -80,6 +109,7 @@ class ByteReader {
 /// Everything but the index, of which the options are kept. Throws std::runtime_error for a library
 /// that is not sound: what is written can be read.
 std::string encode_library(const ModelLibrary& library);
+void encode_library(const ModelLibrary& library, ByteWriter& out);
 
 /// The library, with an index built anew. Throws std::runtime_error "is damaged: ..." if the bytes
 /// are not what encode_library made or do not fit together.

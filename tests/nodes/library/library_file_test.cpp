@@ -48,7 +48,7 @@ std::string file_around(const std::string& payload) {
   out.put(std::string_view(kKey));
   out.put(std::string_view(checksum));
   out.put(std::string_view(payload));
-  return out.bytes();
+  return out.take();
 }
 
 /// Why the file is not loaded; "" if it is.
