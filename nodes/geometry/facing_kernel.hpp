@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loop of FacingPoints. No header of Eigen here, as in grid_run.hpp.
+// The inner loop of for_each_facing. No header of Eigen here, as in grid_run.hpp.
 #pragma once
 
 #include <cstddef>
 
 namespace posevote::geometry {
 
-/// Points with normals, at most kCapacity of them.
+/// Points with normals, at most kCapacity of them, and what pose_and_face tells of them.
 struct PointBatch {
   static constexpr std::size_t kCapacity = 64;
 
-  alignas(64) float x[kCapacity] = {};
-  alignas(64) float y[kCapacity] = {}, z[kCapacity] = {};
+  alignas(64) float x[kCapacity] = {}, y[kCapacity] = {}, z[kCapacity] = {};
   alignas(64) float nx[kCapacity] = {}, ny[kCapacity] = {}, nz[kCapacity] = {};
   alignas(64) float cosine[kCapacity] = {};
 };

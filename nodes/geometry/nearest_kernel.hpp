@@ -28,9 +28,9 @@ struct NearestPoint {
   explicit operator bool() const { return index != kNone; }
 };
 
-/// The nearest of all points in some runs, at most the square root of `farthest`, which is finite, away; of several at
-/// one distance the one with the smallest index. Those that share a group with a run may be found,
-/// too.
+/// The nearest of all points in some runs, at most the square root of `farthest`, a finite number,
+/// away; of several at one distance the one with the smallest index. Those that share a group with a
+/// run may be found, too.
 NearestPoint nearest_in_runs(const PointGroup* groups, const GridRun* runs, std::size_t run_count,
                              const float* center, float farthest);
 
