@@ -64,7 +64,9 @@ void Checksum::add(std::string_view bytes) {
 std::string Checksum::hex() const { return library::hex(XXH3_128bits_digest(state_->hash.get())); }
 
 std::string checksum(std::string_view bytes) {
-  return hex(XXH3_128bits(bytes.data(), bytes.size()));
+  Checksum sum;
+  sum.add(bytes);
+  return sum.hex();
 }
 
 std::string hash_files(const std::vector<fs::path>& files, const std::string& text) {

@@ -51,9 +51,7 @@ ModelLibrary parse(std::string_view bytes, const std::string& key) {
 
 std::string hash_library(const ModelLibrary& library) {
   Checksum sum;
-  ByteWriter out([&](std::string_view piece) { sum.add(piece); });
-  encode_library(library, out);
-  out.finish();
+  encode_library(library, [&](std::string_view piece) { sum.add(piece); });
   return sum.hex();
 }
 

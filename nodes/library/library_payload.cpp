@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/library/library_payload.hpp"
 
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -81,8 +80,7 @@ std::vector<std::uint32_t> get_numbers(ByteReader& in) {
   if (count > in.rest().size() / sizeof(std::uint32_t))
     throw std::runtime_error("is damaged: it ends within a list of numbers");
   std::vector<std::uint32_t> numbers(count);
-  const std::string_view values = in.take(count * sizeof(std::uint32_t));
-  if (count > 0) std::memcpy(numbers.data(), values.data(), values.size());
+  in.get_all(numbers.data(), count);
   return numbers;
 }
 
@@ -191,26 +189,32 @@ void make_indices(const Unindexed& read) {
 }  // namespace
 
 std::string encode_library(const ModelLibrary& library) {
-  ByteWriter out;
-  encode_library(library, out);
-  return out.take();
+  std::string bytes;
+  encode_library(library, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
 }
 
-void encode_library(const ModelLibrary& library, ByteWriter& out) {
+void encode_library(const ModelLibrary& library,
+                    const std::function<void(std::string_view piece)>& sink) {
   check_library(library);
   if (library.octaves.empty()) throw std::runtime_error("the library has no index");
+  ByteWriter out;
   const descriptors::IndexOptions& options = library.octaves[0].index->options();
   out.put(options.search);
   out.put(std::int32_t{options.trees});
   out.put(std::int32_t{options.checks});
   out.put(std::uint64_t{library.models.size()});
-  for (const auto& model : library.models) put_model(out, *model);
+  for (const auto& model : library.models) {
+    put_model(out, *model);
+    sink(out.take());
+  }
   out.put(std::uint64_t{library.left_out.size()});
   for (const LeftOutModel& model : library.left_out) {
     out.put(model.name);
     out.put(std::int32_t{model.obj_id});
     out.put(model.why);
   }
+  sink(out.take());
 }
 
 ModelLibrary decode_library(std::string_view bytes) {

@@ -19,12 +19,6 @@ namespace posevote::library {
 /// Appends values, lengths before contents.
 class ByteWriter {
  public:
-  using Sink = std::function<void(std::string_view piece)>;
-
-  ByteWriter() = default;
-  /// Keeps nothing, but hands on piece by piece, the last at finish().
-  explicit ByteWriter(Sink sink) : sink_(std::move(sink)) {}
-
   template <class T>
   requires std::is_arithmetic_v<T>
   void put(T value) { put_all(&value, 1); }
@@ -41,28 +35,12 @@ class ByteWriter {
   /// As they lie in memory, without their number.
   template <class T>
   void put_all(const T* values, std::size_t count) {
-    append({reinterpret_cast<const char*>(values), count * sizeof(T)});
+    bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
   }
-
-  void finish() { hand_on(bytes_), bytes_.clear(); }
-  /// All that was not handed on.
-  std::string take() { return std::move(bytes_); }
+  /// What was put since the last time.
+  std::string take() { return std::exchange(bytes_, {}); }
 
  private:
-  static constexpr std::size_t kPiece = 1 << 20;
-
-  void append(std::string_view values) {
-    if (sink_ && bytes_.size() + values.size() > kPiece) finish();
-    if (sink_ && values.size() > kPiece)
-      hand_on(values);
-    else
-      bytes_ += values;
-  }
-  void hand_on(std::string_view piece) {
-    if (sink_) sink_(piece);
-  }
-
-  Sink sink_;
   std::string bytes_;
 };
 
@@ -90,9 +68,14 @@ class ByteReader {
     if (columns > 0 && rows > rest_.size() / sizeof(typename Matrix::Scalar) / columns)
       throw std::runtime_error("is damaged: it ends within a matrix");
     Matrix matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
-    const std::string_view values = take(rows * columns * sizeof(typename Matrix::Scalar));
-    if (!values.empty()) std::memcpy(matrix.data(), values.data(), values.size());
+    get_all(matrix.data(), rows * columns);
     return matrix;
+  }
+  /// So many that are not more than there are bytes left.
+  template <class T>
+  void get_all(T* values, std::uint64_t count) {
+    const std::string_view bytes = take(count * sizeof(T));
+    if (!bytes.empty()) std::memcpy(values, bytes.data(), bytes.size());
   }
   std::string_view take(std::uint64_t count) {
     if (count > rest_.size()) throw std::runtime_error("is damaged: it ends too early");
@@ -109,7 +92,9 @@ class ByteReader {
 /// Everything but the index, of which the options are kept. Throws std::runtime_error for a library
 /// that is not sound: what is written can be read.
 std::string encode_library(const ModelLibrary& library);
-void encode_library(const ModelLibrary& library, ByteWriter& out);
+/// The same bytes, of which each piece goes to `sink`: the whole is large, and need not be in memory.
+void encode_library(const ModelLibrary& library,
+                    const std::function<void(std::string_view piece)>& sink);
 
 /// The library, with an index built anew. Throws std::runtime_error "is damaged: ..." if the bytes
 /// are not what encode_library made or do not fit together.

@@ -8,6 +8,7 @@
 
 #include "nodes/color/srgb.hpp"
 #include "nodes/geometry/facing_points.hpp"
+#include "nodes/geometry/strewn.hpp"
 #include "nodes/poses/sought.hpp"
 
 namespace posevote::poses {

@@ -245,15 +245,13 @@ Evidence weigh_points(const Cloud& model, const std::vector<std::uint32_t>& poin
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::vector<Judged> judged;
   judged.reserve(points.size());
-  for (const std::uint32_t i : points) {
-    const geometry::OrientedPoint p = geometry::posed_point(model, i, T);
-    const float apparent = scan.facing_cosine(p);
-    if (apparent == 0) continue;
+  const auto judge_one = [&](std::size_t, const geometry::OrientedPoint& p, float apparent) {
     Judged one = judge(p, apparent, sensed);
-    if (one.verdict != Verdict::kSupported && one.apparent < kGrazing) continue;
+    if (one.verdict != Verdict::kSupported && one.apparent < kGrazing) return;
     one.apparent = 1;  // all alike, so that their number tells how sure the balance is
     judged.push_back(one);
-  }
+  };
+  geometry::for_each_facing(model, points, 0, points.size(), T, scan, judge_one);
   const Fit fit = count(judged);
   return {fit.apparent.supported - fit.apparent.against(terms), fit.facing - fit.hidden};
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "nodes/geometry/strewn.hpp"
 #include "tests/support/instruction_set.hpp"
 
 namespace posevote::facing_points_test {
