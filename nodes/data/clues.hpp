@@ -27,12 +27,14 @@ enum Clue : std::size_t {
   kSunk,       ///< share of its surface that lies in the ground
   kOutside,  ///< share of what faces the sensor that lies beside the image, times what kLead lacks
              ///< of a clear lead
+  kStrangers,  ///< log of how well the things in the scan are known, at most 0: of few kinds that
+               ///< are looked for, and little that was found, it may be another's look-alike
   kClueCount
 };
 
 constexpr std::array<const char*, kClueCount> kClueNames{
-    "agreement", "relief", "outline", "overhang", "votes", "lead",   "exactness",
-    "support",   "gaps",   "filled",  "visible",  "sunk",  "outside"};
+    "agreement", "relief", "outline", "overhang", "votes", "lead",    "exactness",
+    "support",   "gaps",   "filled",  "visible",  "sunk",  "outside", "strangers"};
 
 using Clues = std::array<double, kClueCount>;
 

@@ -19,7 +19,7 @@ constexpr double kClearLead = 1;
 constexpr double kAllSunk = 0.5;
 
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
-constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0, 0};
+constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0, 0, 0};
 
 /// Looks into holes that nobody took: few of them say little.
 constexpr double kFewLooks = 5;
@@ -113,6 +113,15 @@ double confidence_of(const Candidate& candidate, const Terms& terms) {
   double log_odds = log_odds_of(candidate.clues, terms.confidence) + candidate.of_twin;
   if (candidate.color_clues) log_odds += log_odds_of(*candidate.color_clues, terms.color);
   return probability_of(log_odds);
+}
+
+void doubt_as_stranger(const Acquaintance& known, const Terms& terms, Candidate& candidate) {
+  if (!(candidate.quality > 0)) return;
+  const double things = static_cast<double>(known.kinds) +
+                        terms.confidence.each_found * static_cast<double>(known.found);
+  candidate.clues[kStrangers] =
+      known.kinds == 0 ? 0 : std::min(0.0, std::log(things / terms.confidence.kinds));
+  candidate.confidence = confidence_of(candidate, terms);
 }
 
 void believe(const Sought& sought, Candidate& candidate) {

@@ -52,6 +52,12 @@ Clues against(const Clues& clues, const ConfidenceTerms& terms);
 /// Of a candidate's clues, and what it has of the pose that it outdid (twins.hpp).
 double confidence_of(const Candidate& candidate, const Terms& terms);
 
+/// Of an instance, once it is chosen: takes from its confidence what speaks for anything's being
+/// of a kind that nobody looks for. Before one looks, a thing is of any of `kinds` kinds, each as
+/// likely; an instance that was found counts for `each_found` that are known. Who goes first does
+/// not depend on it.
+void doubt_as_stranger(const Acquaintance& known, const Terms& terms, Candidate& candidate);
+
 /// Sets consensus, clues and confidence of a candidate.
 void believe(const Sought& sought, Candidate& candidate);
 

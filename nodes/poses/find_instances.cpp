@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "graph/parallel.hpp"
+#include "nodes/poses/confidence.hpp"
 #include "nodes/poses/contest.hpp"
 
 namespace posevote::poses {
@@ -124,6 +125,7 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
     while (ObjectSearch* search = best_of(sorted, scan)) {
       Instance& instance = found.emplace_back(
           Instance{static_cast<std::size_t>(search - searches.data()), *search->best()});
+      doubt_as_stranger(scan.known, search->terms(), instance.candidate);
       instance.candidate.identity = probability_of_identity(*search, sorted, scan);
       search->accept();
       if (std::all_of(sorted.begin(), sorted.end(),
@@ -173,7 +175,10 @@ Instances find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
   all.rejected.assign(doubtful, all.found.end());
   all.found.erase(doubtful, all.found.end());
   for (std::size_t i = 0; i < searches.size(); ++i)
-    for (const Candidate& refused : searches[i].refused()) all.rejected.push_back({i, refused});
+    for (const Candidate& refused : searches[i].refused()) {
+      Instance& one = all.rejected.emplace_back(Instance{i, refused});
+      doubt_as_stranger(scan.known, searches[i].terms(), one.candidate);
+    }
   sort_by_confidence(all.found);
   sort_by_confidence(all.rejected);
   keep_few(all.rejected, searches);

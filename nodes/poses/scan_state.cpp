@@ -23,7 +23,7 @@ void extend(Eigen::AlignedBox3d& box, const PointMatrix& points, const std::vect
 }  // namespace
 
 ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float resolution_m,
-                     const Terms& terms)
+                     const Terms& terms, std::size_t kinds)
     : cloud(scan),
       features(scan_features),
       resolution(resolution_m),
@@ -31,7 +31,8 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
       surface(scan, view.usable(), kSearchCell * resolution_m, terms.surface),
       ground(scan, kSkin * resolution_m),
       feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0),
-      look(scan) {}
+      look(scan),
+      known{kinds} {}
 
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {
@@ -57,6 +58,7 @@ bool ScanState::changed_since(int since, const Eigen::AlignedBox3d& box, double 
 
 void ScanState::learn_from(const Model& model, const Candidate& instance) {
   if (instance.confidence < kBelieved) return;
+  ++known.found;
   usual_residual.add(instance.fit, range_of(model, instance.T_scene_model));
   usual_tint.add(instance.colors);
   solids_.emplace_back(model.cloud, instance.T_scene_model,

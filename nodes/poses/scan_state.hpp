@@ -18,10 +18,16 @@
 
 namespace posevote::poses {
 
+/// What is known of the things in a scan.
+struct Acquaintance {
+  std::size_t kinds = 0;  ///< that are looked for; 0: that is not asked, all are
+  std::size_t found = 0;  ///< instances that are believed
+};
+
 struct ScanState {
   /// Keeps references to scan and features.
   ScanState(const Cloud& scan, const FeatureSet& scan_features, float resolution_m,
-            const Terms& terms = {});
+            const Terms& terms = {}, std::size_t kinds = 0);
 
   /// Takes what a posed model explains, up to `distance` [m] from its surface, out of the scan's
   /// points and features. Free space stays what it is: `view` keeps all points.
@@ -55,6 +61,7 @@ struct ScanState {
   UsualResidual usual_residual;         // of what was found
   UsualTint usual_tint;                 // of what was found
   LookOf look;
+  Acquaintance known;
 
  private:
   std::vector<Eigen::AlignedBox3d> gone_;  // what each take took out lies in

@@ -107,6 +107,15 @@ void add_confidence(Node& node) {
        "for elsewhere; they are no detections below min_confidence. 1: true poses that are found "
        "behind a doubtful one are lost (YCB-Video: 42 of 51 instead of 44).",
        in_range(0, 1));
+  term("kinds", &ConfidenceTerms::kinds, "",
+       "Before one looks, a thing in a scan is of any of so many kinds, each as likely. The fewer "
+       "of them are looked for, the more probably a pose that fits is another's look-alike. 1: "
+       "nothing else lies there.",
+       at_least(1));
+  term("each_found", &ConfidenceTerms::each_found, "kinds",
+       "An instance that was found counts for so many that are looked for: where one is, there are "
+       "more.",
+       at_least(0));
   node.expert_param(
       "confidence_offset",
       [](SegmentParams& params) -> double& { return params.terms.confidence.offset; }, "log odds",

@@ -59,13 +59,14 @@ struct ScoreTerms {
 /// fitted (posevote calibrate) on 368 images: configs/calibration{,_more}_scenes.yaml; the offset and
 /// the weight of kVisible once more by themselves, since it tells flat from rich. All but that of
 /// kGaps, which real sensors blur, then went three tenths of the way to what fits 2273 detections of
-/// scans of 72 other objects; those of kFilled and kOutside are of their own
-/// (tools/experiment/README.md).
+/// scans of 72 other objects; those of kFilled and kOutside are of their own, and that of kStrangers
+/// is Bayes' rule (tools/experiment/README.md).
 struct ConfidenceTerms {
   double offset = -10.47;
   double doubtful = 0.4;  ///< x min_confidence: is an instance, but not a detection
+  double kinds = 20, each_found = 2;
   Clues weights{1.887, 0.4017, 1.787, -6.564, 0.3277, 0.6792, 4.022,
-                2.067, 0.6542, -0.8,  0.4996, -14.03, -2};
+                2.067, 0.6542, -0.8,  0.4996, -14.03, -2,     1};
 };
 
 /// What colours say of it (color_fit.hpp), where there are any. Offset and weights were fitted

@@ -109,6 +109,7 @@ std::vector<Sighting> keep(const Sightings& before, std::vector<Look>& looks,
     Look& look = looks[i];
     poses::Candidate& candidate = look.now.candidate;
     poses::judge_again(look.sought, candidate);
+    poses::doubt_as_stranger(scan.known, look.sought.terms, candidate);
     const poses::InstanceParams& rules = look.sought.params;
     if (candidate.confidence < rules.min_confidence || candidate.score() < rules.min_score ||
         !is_place_free(look, kept))
@@ -155,7 +156,7 @@ std::size_t most_instances(const ModelLibrary& library, const poses::SegmentPara
 Sightings see(const Cloud& cloud, const Scale& scale, const ModelLibrary& library,
               const Sightings& before, const Params& params) {
   const FeatureSet none;
-  poses::ScanState scan(cloud, none, scale.resolution, before.params.terms);
+  poses::ScanState scan(cloud, none, scale.resolution, before.params.terms, library.models.size());
   std::vector<Look> looks = look_at(before, library, scan);
   Sightings now;
   now.params = before.params;

@@ -22,7 +22,8 @@ Detections segment_hypotheses(const PerObject<Hypotheses>& objects,
                               const Scale& scale, const poses::SegmentParams& params) {
   poses::check_scan(scene_features, scene_cloud, scale);
   for (const auto& object : objects.slots) poses::check_model(*object->model);
-  poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms);
+  poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms,
+                        objects.size());
   std::vector<poses::ObjectSearch> searches;
   for (const auto& object : objects.slots) {
     const Model& model = object->model->at(scan.resolution);

@@ -75,7 +75,7 @@ Detections segment(const ModelVotes& votes, const PerObject<VoteDensity>& densit
   poses::check_scan(scene_features, scene_cloud, scale);
   check_votes(votes, densities, static_cast<std::size_t>(scene_features.points.rows()));
   for (const auto& slot : votes.slots) poses::check_model(*slot->model);
-  poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms);
+  poses::ScanState scan(scene_cloud, scene_features, scale.resolution, params.terms, votes.size());
   std::vector<LiveVotes> objects(votes.size());
   std::vector<std::optional<poses::Sought>> sought(votes.size());
   graph::parallel_for(votes.size(), 1, [&](std::size_t i) {

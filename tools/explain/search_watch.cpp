@@ -21,7 +21,8 @@ Place place_in(const Step& step, const Alike& pose) {
 SearchWatch::SearchWatch(const Taps& taps, const poses::SegmentParams& params,
                          std::optional<std::size_t> only, const Prepare& prepare)
     : steps_(taps.votes.size()) {
-  poses::ScanState scan(*taps.cloud, *taps.features, taps.scale.resolution, params.terms);
+  poses::ScanState scan(*taps.cloud, *taps.features, taps.scale.resolution, params.terms,
+                        taps.votes.size());
   if (prepare) prepare(scan);
   std::vector<segment::LiveVotes> objects;
   std::vector<std::size_t> numbers;

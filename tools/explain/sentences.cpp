@@ -24,7 +24,8 @@ const char* meaning_of(const std::string& clue) {
        "few of its points are seen", "its holes, slots and edges are not met by the scan's",
        "the scan has a surface where the object has holes",
        "much of it is hidden, and the rest is flat", "much of it would lie in the ground",
-       "much of it would lie beside the image, and other places have as many votes"});
+       "much of it would lie beside the image, and other places have as many votes",
+       "of the things in the scan few are known, so that it may be another's look-alike"});
   static_assert(kMeanings.size() == kClueCount);
   const auto at = std::find(kClueNames.begin(), kClueNames.end(), clue);
   if (at == kClueNames.end()) return "its colours are not those that the camera saw";

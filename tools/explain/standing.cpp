@@ -130,10 +130,22 @@ void Bench::take_out_doubtful(std::size_t object, const Alike& alike,
                               poses::ScanState& scan) const {
   for (const poses::Instance& one : search.instances().rejected) {
     if (one.object == object && alike.is_near(one.candidate.T_scene_model)) continue;
-    if (one.candidate.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
-        one.candidate.score() >= params.min_score)
+    poses::Candidate chosen = one.candidate;  // as it was when it was chosen
+    poses::doubt_as_stranger({}, params.terms, chosen);
+    if (chosen.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
+        chosen.score() >= params.min_score)
       take_out(one, scan);
   }
+}
+
+poses::Acquaintance Bench::others_than(std::size_t object,
+                                       const Eigen::Isometry3d& T_scene_model) const {
+  const Alike alike(*objects[object].votes->model, T_scene_model);
+  const std::vector<poses::Instance>& found = search.instances().found;
+  const auto others = std::count_if(found.begin(), found.end(), [&](const poses::Instance& one) {
+    return one.object != object || !alike.is_near(one.candidate.T_scene_model);
+  });
+  return {taps.votes.size(), static_cast<std::size_t>(others)};
 }
 
 void Bench::count_features(std::size_t object, const poses::Sought& sought,
@@ -186,6 +198,7 @@ Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Stan
   poses::refine(sought, candidate);
   poses::polish(sought, candidate);
   T_refined = candidate.T_scene_model;
+  poses::doubt_as_stranger(others_than(object, standing.T_scene_model), params.terms, candidate);
   Judged judged = judged_as(candidate, params.terms);
   if (!(candidate.quality > 0)) return judged;
   const poses::FitShares shares = poses::shares_of(candidate.fit, params.terms.fit);

@@ -2,6 +2,7 @@
 #include "nodes/poses/confidence.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "nodes/poses/score.hpp"
 #include "tests/nodes/poses/sought_body.hpp"
@@ -90,6 +91,39 @@ TEST_CASE("the true pose is believed, one beside it less, one elsewhere not", "[
   CHECK(confidence(beside(0)) > 0.8);
   CHECK(confidence(beside(0.006, 0.3)) < confidence(beside(0)));
   CHECK(confidence(beside(0.5)) == 0);
+}
+
+TEST_CASE("of the fewer kinds that are known, the more probably a pose is a stranger's",
+          "[poses]") {
+  poses::Candidate instance;
+  instance.fit = good_fit();
+  instance.quality = 1;
+  instance.clues = poses::clues_of(instance.fit, {1, 0.5, 2});
+  const poses::Terms terms;
+  const double unasked = poses::confidence_of(instance, terms);
+  const auto among = [&](std::size_t kinds, std::size_t found) {
+    poses::Candidate one = instance;
+    poses::doubt_as_stranger({kinds, found}, terms, one);
+    return one.confidence;
+  };
+  CHECK(among(0, 0) == unasked);
+  CHECK(among(20, 0) == unasked);
+  CHECK(among(100, 3) == unasked);
+  CHECK(poses::log_odds_of(among(1, 0)) ==
+        Approx(poses::log_odds_of(unasked) - std::log(20)).margin(1e-6));
+  CHECK(among(1, 0) < among(8, 0));
+  // Where one was found there are more.
+  CHECK(among(1, 0) < among(1, 3));
+  CHECK(among(1, 10) == unasked);
+  poses::Candidate one = instance;
+  poses::doubt_as_stranger({1, 0}, terms, one);
+  CHECK(one.clues[kStrangers] == Approx(-std::log(20)));
+  poses::doubt_as_stranger({}, terms, one);
+  CHECK(one.confidence == unasked);
+  // What is nothing is no less.
+  one.quality = one.confidence = 0;
+  poses::doubt_as_stranger({1, 0}, terms, one);
+  CHECK(one.confidence == 0);
 }
 
 }  // namespace posevote::confidence_test

@@ -25,8 +25,9 @@ Hypothesis beside(const Placed& body, double metres, double support) {
 
 using Values = std::map<std::string, std::string>;
 
-std::vector<Detection> segmented(const Hypotheses& proposed, const Cloud& scan,
-                                 const Values& values) {
+/// Where nothing else lies.
+std::vector<Detection> segmented(const Hypotheses& proposed, const Cloud& scan, Values values) {
+  values["kinds"] = "1";
   PerObject<Hypotheses> objects;
   objects.slots = {std::make_shared<Hypotheses>(proposed)};
   return run_node<Detections>("segment_hypotheses", values, objects, features_of(scan), scan,

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What segment_objects finds, and how it says so.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/nodes/segment/segment_inputs.hpp"
 
 namespace posevote::segment_objects_test {
 
 using namespace posevote::test;
+
+namespace {
+
+const test::Values kNoStrangers{{"kinds", "1"}};
+
+}  // namespace
 
 TEST_CASE("two objects are found at their poses", "[segment]") {
   const std::vector<Detection> found = test::segment(inputs_of({kLeft, kRight}, {1, 2}));
@@ -27,7 +35,7 @@ TEST_CASE("two objects are found at their poses", "[segment]") {
 TEST_CASE("a pose that few features voted for scores lower", "[segment]") {
   const std::vector<Detection> all = test::segment(inputs_of({kLeft}, {1}, 0));
   const SegmentInputs sparse = inputs_of({kLeft}, {1}, 0.97);
-  const std::vector<Detection> few = test::segment(sparse);
+  const std::vector<Detection> few = test::segment(sparse, kNoStrangers);
   REQUIRE(all.size() == 1);
   REQUIRE(few.size() == 1);
   CHECK(shift_between(few[0].T_scene_model, all[0].T_scene_model) < 0.1 * kResolution);
@@ -35,6 +43,30 @@ TEST_CASE("a pose that few features voted for scores lower", "[segment]") {
   CHECK(few[0].inlier_fraction == Approx(all[0].inlier_fraction).margin(0.01));
   CHECK(few[0].score < 0.8 * all[0].score);
   CHECK(test::segment(sparse, {{"min_score", std::to_string(1.01 * few[0].score)}}).empty());
+}
+
+TEST_CASE("of few kinds that are looked for each is believed less, and found at the same pose",
+          "[segment]") {
+  const SegmentInputs inputs = inputs_of({kLeft, kRight}, {1, 2});
+  const std::vector<Detection> among = test::segment(inputs, kNoStrangers),
+                               alone = test::segment(inputs);
+  REQUIRE(among.size() == 2);
+  REQUIRE(alone.size() == 2);
+  std::vector<double> strangers;
+  for (const Detection& one : alone) {
+    const auto same = std::find_if(among.begin(), among.end(), [&](const Detection& other) {
+      return other.obj_id == one.obj_id;
+    });
+    REQUIRE(same != among.end());
+    CHECK(one.T_scene_model.matrix() == same->T_scene_model.matrix());
+    CHECK(one.confidence < same->confidence);
+    CHECK(same->clues[kStrangers] == 0);
+    CHECK(one.against[kStrangers] == Approx(-one.clues[kStrangers]));
+    strangers.push_back(one.clues[kStrangers]);
+  }
+  std::sort(strangers.begin(), strangers.end());
+  CHECK(strangers[0] == Approx(std::log(2.0 / 20)));
+  CHECK(strangers[1] == Approx(std::log((2.0 + 2) / 20)));  // one was found before
 }
 
 TEST_CASE("two instances of one object are both found", "[segment]") {
