@@ -176,7 +176,7 @@ Instances find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
   all.found.erase(doubtful, all.found.end());
   for (std::size_t i = 0; i < searches.size(); ++i)
     for (const Candidate& refused : searches[i].refused()) {
-      Instance& one = all.rejected.emplace_back(Instance{i, refused});
+      Instance& one = all.rejected.emplace_back(Instance{i, refused, false});
       doubt_as_stranger(scan.known, searches[i].terms(), one.candidate);
     }
   sort_by_confidence(all.found);

@@ -12,6 +12,7 @@ namespace posevote::poses {
 struct Instance {
   std::size_t object = 0;  ///< index of its search
   Candidate candidate;
+  bool is_chosen = true;  ///< doubtful or not, it took its points; else it convinced nobody
 };
 
 /// What became of the best poses.

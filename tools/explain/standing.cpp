@@ -130,17 +130,11 @@ void Bench::take_out_doubtful(std::size_t object, const Alike& alike,
                               poses::ScanState& scan) const {
   for (const poses::Instance& one : search.instances().rejected) {
     if (one.object == object && alike.is_near(one.candidate.T_scene_model)) continue;
-    poses::Candidate chosen = one.candidate;  // as it was when it was chosen
-    poses::doubt_as_stranger({}, params.terms, chosen);
-    if (chosen.confidence >= params.terms.confidence.doubtful * params.min_confidence &&
-        chosen.score() >= params.min_score)
-      take_out(one, scan);
+    if (one.is_chosen) take_out(one, scan);
   }
 }
 
-poses::Acquaintance Bench::others_than(std::size_t object,
-                                       const Eigen::Isometry3d& T_scene_model) const {
-  const Alike alike(*objects[object].votes->model, T_scene_model);
+poses::Acquaintance Bench::others_than(std::size_t object, const Alike& alike) const {
   const std::vector<poses::Instance>& found = search.instances().found;
   const auto others = std::count_if(found.begin(), found.end(), [&](const poses::Instance& one) {
     return one.object != object || !alike.is_near(one.candidate.T_scene_model);
@@ -185,8 +179,8 @@ void Bench::count_votes(std::size_t object, const Alike& alike, Standing& standi
   if (near != modes.end()) standing.density = std::max(standing.density, near->support);
 }
 
-Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Standing& standing,
-                    Eigen::Isometry3d& T_refined) const {
+Judged Bench::judge(std::size_t object, const Alike& alike, const poses::ScanState& scan,
+                    const Standing& standing, Eigen::Isometry3d& T_refined) const {
   poses::Sought sought = segment::sought_for(objects[object], scan, params);
   sought.most_support = std::max(standing.highest, poses::kSomeSupport);
   poses::Candidate candidate;
@@ -198,7 +192,7 @@ Judged Bench::judge(std::size_t object, const poses::ScanState& scan, const Stan
   poses::refine(sought, candidate);
   poses::polish(sought, candidate);
   T_refined = candidate.T_scene_model;
-  poses::doubt_as_stranger(others_than(object, standing.T_scene_model), params.terms, candidate);
+  poses::doubt_as_stranger(others_than(object, alike), params.terms, candidate);
   Judged judged = judged_as(candidate, params.terms);
   if (!(candidate.quality > 0)) return judged;
   const poses::FitShares shares = poses::shares_of(candidate.fit, params.terms.fit);
@@ -259,12 +253,12 @@ Standing Bench::stand(std::size_t object, const Eigen::Isometry3d& T_scene_model
     standing.rank = standing.way.front().place;
     standing.peaks = standing.way.front().of;
   }
-  standing.judged = judge(object, whole, standing, standing.T_refined);
+  standing.judged = judge(object, alike, whole, standing, standing.T_refined);
   poses::ScanState left(*taps.cloud, *taps.features, taps.scale.resolution, params.terms);
   take_out_found(left);
   take_out_doubtful(object, alike, left);
   Eigen::Isometry3d T_left;
-  standing.left = judge(object, left, standing, T_left);
+  standing.left = judge(object, alike, left, standing, T_left);
   standing.inside = left.share_inside(sought.model, T_left);
   standing.moved = alike.distance(standing.T_refined);
   standing.turned = alike.turn(standing.T_refined);

@@ -90,10 +90,10 @@ class Bench {
   poses::ScanState whole;
 
  private:
-  Judged judge(std::size_t object, const poses::ScanState& scan, const Standing& standing,
-               Eigen::Isometry3d& T_refined) const;
+  Judged judge(std::size_t object, const Alike& alike, const poses::ScanState& scan,
+               const Standing& standing, Eigen::Isometry3d& T_refined) const;
   /// What is known of the scan's things, but for the instance at that pose.
-  poses::Acquaintance others_than(std::size_t object, const Eigen::Isometry3d& T_scene_model) const;
+  poses::Acquaintance others_than(std::size_t object, const Alike& alike) const;
   void count_features(std::size_t object, const poses::Sought& sought, Standing& standing) const;
   void count_votes(std::size_t object, const Alike& alike, Standing& standing) const;
   void take_out_doubtful(std::size_t object, const Alike& alike, poses::ScanState& scan) const;
