@@ -64,7 +64,7 @@ Cloud keep_oriented(const PointMatrix& points, PointMatrix normals, const View& 
                     const ColorMatrix& colors) {
   const std::vector<std::uint32_t> kept = oriented_rows(points, normals);
   if (std::ssize(kept) == points.rows()) return {points, std::move(normals), view, colors};
-  return {points(kept, Eigen::all), normals(kept, Eigen::all), view, select_if_any(colors, kept)};
+  return {rows_of(points, kept), rows_of(normals, kept), view, select_if_any(colors, kept)};
 }
 
 void require_normals(const Cloud& cloud) {

@@ -7,6 +7,7 @@
 #include "graph/parallel.hpp"
 #include "nodes/geometry/box_around.hpp"
 #include "nodes/geometry/cells.hpp"
+#include "nodes/geometry/select_rows.hpp"
 #include "nodes/geometry/voxels.hpp"
 
 namespace posevote::geometry {
@@ -35,15 +36,16 @@ ScanSurface::ScanSurface(const Cloud& scan, bool single_view, float reach,
       facing_cosine_(static_cast<float>(terms.least_facing_cosine)),
       normal_cosine_(static_cast<float>(terms.least_normal_cosine)),
       reach_(reach) {
-  const PointMatrix places = scan.points(rows_, Eigen::all);
+  const PointMatrix places = rows_of(scan.points, rows_);
   graph::parallel_for(2, 1, [&](std::size_t i) {
     (i == 0 ? near_ : far_) = NearestIndex(places, i == 0 ? reach : kFarther * reach);
   });
-  points_.reserve(rows_.size());
-  for (const std::uint32_t i : rows_) {
-    points_.push_back({scan.points.row(i).transpose(), scan.normals.row(i).transpose()});
-    gone_[i] = static_cast<char>(!(points_.back().normal.squaredNorm() > 0.5F));
-  }
+  points_.resize(rows_.size());
+  graph::parallel_for(rows_.size(), 8192, [&](std::size_t k) {
+    const std::uint32_t i = rows_[k];
+    points_[k] = {scan.points.row(i).transpose(), scan.normals.row(i).transpose()};
+    gone_[i] = static_cast<char>(!(points_[k].normal.squaredNorm() > 0.5F));
+  });
   take_out(gone_);
 }
 

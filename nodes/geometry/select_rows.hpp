@@ -3,22 +3,32 @@
 
 #include <concepts>
 
+#include "graph/parallel.hpp"
 #include "nodes/data/cloud.hpp"
 
 namespace posevote::geometry {
 
-/// Those rows of a matrix that may have none at all.
+/// Those rows of a matrix; parallel. `rows`: a vector of row numbers or an Eigen::seq.
+template <class Matrix, class Rows>
+Matrix rows_of(const Matrix& matrix, const Rows& rows) {
+  Matrix selected(static_cast<Eigen::Index>(rows.size()), matrix.cols());
+  graph::parallel_for(static_cast<std::size_t>(rows.size()), 8192, [&](std::size_t i) {
+    selected.row(static_cast<Eigen::Index>(i)) = matrix.row(static_cast<Eigen::Index>(rows[i]));
+  });
+  return selected;
+}
+
+/// The same of a matrix that may have none at all.
 template <class Matrix, class Rows>
 Matrix select_if_any(const Matrix& matrix, const Rows& rows) {
   if (matrix.rows() == 0) return {};
-  return matrix(rows, Eigen::all);
+  return rows_of(matrix, rows);
 }
 
-/// Those points with their normals and colours, in the order of `rows`; the view stays. `rows`: a
-/// vector of row numbers or an Eigen::seq.
+/// Those points with their normals and colours, in the order of `rows`; the view stays.
 template <class Rows>
 Cloud select_rows(const Cloud& cloud, const Rows& rows) {
-  return {cloud.points(rows, Eigen::all), cloud.normals(rows, Eigen::all), cloud.view,
+  return {rows_of(cloud.points, rows), rows_of(cloud.normals, rows), cloud.view,
           select_if_any(cloud.colors, rows)};
 }
 
@@ -28,7 +38,7 @@ template <std::derived_from<Mesh> Surface, class Rows>
 Surface select_rows(const Surface& surface, const Rows& rows) {
   Surface selected;
   if constexpr (std::derived_from<Surface, Scan>) selected.view = surface.view;
-  selected.points = surface.points(rows, Eigen::all);
+  selected.points = rows_of(surface.points, rows);
   selected.normals = select_if_any(surface.normals, rows);
   selected.colors = select_if_any(surface.colors, rows);
   return selected;

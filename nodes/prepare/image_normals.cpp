@@ -42,11 +42,11 @@ class PixelPlanes {
     const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     for (auto* column : {&x_, &y_, &z_}) column->assign(size + geometry::kGridPadding, kNowhere);
     weights_.assign(size + geometry::kGridPadding, 0);
-    put_all(scan.points);
-    // So that the order of the points plays no part in a sample.
-    const auto by_pixel = [](const Place& a, const Place& b) { return a.pixel < b.pixel; };
-    if (!std::is_sorted(places_.begin(), places_.end(), by_pixel))
-      std::sort(places_.begin(), places_.end(), by_pixel);
+    find_places(scan.points);
+    const auto no_order = [](const Place& a, const Place& b) { return a.pixel >= b.pixel; };
+    complete_ = (places_.empty() || places_.back().pixel != kOutside) &&
+                std::adjacent_find(places_.begin(), places_.end(), no_order) == places_.end();
+    if (complete_) put_all(scan.points);
   }
 
   /// Whether every point is in the image, and no two in one pixel.
@@ -131,20 +131,26 @@ class PixelPlanes {
     return inside ? pixel_at(static_cast<int>(at.x()), static_cast<int>(at.y())) : kOutside;
   }
 
-  void put_all(const PointMatrix& points) {
+  /// In the order of their pixels, so that the order of the points plays no part in a sample.
+  void find_places(const PointMatrix& points) {
     const std::vector<std::uint32_t> rows = geometry::finite_rows(points);
     places_.resize(rows.size());
     graph::parallel_for(rows.size(), 8192, [&](std::size_t i) {
       places_[i] = {rows[i], pixel_of_point(points.row(rows[i]))};
     });
-    for (const auto& [i, pixel] : places_) {
-      complete_ = complete_ && pixel != kOutside && weights_[pixel] == 0;
-      if (!complete_) return;
+    const auto by_pixel = [](const Place& a, const Place& b) { return a.pixel < b.pixel; };
+    if (!std::is_sorted(places_.begin(), places_.end(), by_pixel))
+      std::sort(places_.begin(), places_.end(), by_pixel);
+  }
+
+  void put_all(const PointMatrix& points) {
+    graph::parallel_for(places_.size(), 8192, [&](std::size_t k) {
+      const auto [i, pixel] = places_[k];
       x_[pixel] = points(i, 0);
       y_[pixel] = points(i, 1);
       z_[pixel] = points(i, 2);
       weights_[pixel] = 1;
-    }
+    });
   }
 
   /// The distance of two pixels, the second of which may be outside or without a measurement.
@@ -244,7 +250,7 @@ class PixelPlanes {
   Eigen::Vector2f low_, per_ray_;  ///< first pixel's border; pixels in a unit of x / z and y / z
   std::vector<float> x_, y_, z_, weights_;  ///< row by row, padded; weight 0: no measurement
   std::vector<Place> places_;
-  bool complete_ = true;
+  bool complete_ = false;
 };
 
 }  // namespace
