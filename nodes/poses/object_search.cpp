@@ -64,7 +64,8 @@ void ObjectSearch::propose() {
   const bool again = convinced_nobody();
   {
     const Stopwatch watch(seconds_);
-    pool_ = collect(sought_, proposals_.propose(), taken_);
+    proposed_ = proposals_.propose();
+    pool_ = collect(sought_, proposed_, taken_);
     if (again && std::ssize(pool_) > terms.shortlist)
       pool_.resize(static_cast<std::size_t>(terms.shortlist));
     show(sought_, "peek", pool_);
@@ -211,11 +212,18 @@ void ObjectSearch::accept(const Candidate& known) {
 
 void ObjectSearch::accept() {
   accept(*best_);
+  least_support_ = std::min(least_support_, best_->proposed.support);
   seconds_ = 0;
   best_.reset();
   std::erase_if(pool_, [this](const Candidate& other) {
     return is_full() || !taken_.is_clear(other.proposed.center);
   });
+  // What is left leads over what is left, and need not lead over more than the least of the
+  // instances: of a bin's many, those on top have far more votes than those below.
+  std::erase_if(proposed_, [this](const Hypothesis& one) { return !taken_.is_clear(one.center); });
+  for (Candidate& one : pool_)
+    one.elsewhere =
+        std::max(least_support_, support_elsewhere(proposed_, one.proposed.center, sought_.model));
 }
 
 }  // namespace posevote::poses

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -71,10 +72,12 @@ class ObjectSearch {
 
   Sought sought_;
   Proposals proposals_;
-  Candidates pool_;  ///< the best first, as far as they were judged
+  std::vector<Hypothesis> proposed_;  ///< all that were, but for those at instances
+  Candidates pool_;                   ///< the best first, as far as they were judged
   std::optional<Candidate> best_;
   Candidates refused_;
   TakenPlaces taken_;
+  double least_support_ = std::numeric_limits<double>::infinity();  ///< of its instances
   int accepted_ = 0;
   int proposed_at_ = -1, chosen_at_ = -1;  ///< ScanState::takes then
   double seconds_ = 0;                     ///< of work since the last instance

@@ -88,7 +88,7 @@ void add_score(Node& node) {
        in_range(0, 10));
   term("usual_votes", &G::usual_votes, "votes",
        "Per correspondence, for which the consensus was measured: a rotation every "
-       "6 deg.",
+       "12 deg.",
        greater_than(0));
 }
 

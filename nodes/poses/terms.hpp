@@ -52,7 +52,7 @@ struct ScoreTerms {
   double trust_in_support = 0.1;
   double trust_in_clues = 0.1;
   double trust_in_consensus = 0.15;
-  double usual_votes = 60;
+  double usual_votes = 30;
 };
 
 /// How probable it makes the pose (confidence.hpp): log odds for each clue, as they were

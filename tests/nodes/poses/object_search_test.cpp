@@ -83,6 +83,26 @@ TEST_CASE("what convinced nobody is found among what is proposed again", "[poses
   CHECK(distance_to_body(search.best()->T_scene_model) < 1e-3);
 }
 
+TEST_CASE("of many instances none need lead over more than the least of those found", "[poses]") {
+  const std::vector<Placed> bodies{kBody, {1, beside(0.3)}, {1, beside(-0.3)}};
+  SoughtBody body(bodies);
+  body.params.max_instances = 3;
+  const std::vector<Hypothesis> proposals{body.hypothesis(bodies[0].T_scene_model, 1000),
+                                          body.hypothesis(bodies[1].T_scene_model, 400),
+                                          body.hypothesis(bodies[2].T_scene_model, 50)};
+  ObjectSearch search(body.sought(),
+                      {[&] { return proposals; }, [](const Hypothesis& one) { return one; }});
+  search.propose();
+  for (const double elsewhere : {400, 1000, 400}) {
+    REQUIRE(search.best());
+    CHECK(search.best()->elsewhere == elsewhere);
+    const Eigen::Isometry3d T_scene_model = search.best()->T_scene_model;
+    search.accept();
+    body.scan.take_out(body.model, T_scene_model, 0.01F);
+    search.choose();
+  }
+}
+
 TEST_CASE("near a point a search looks at what is proposed there, and may be told to prefer it",
           "[poses]") {
   SoughtBody body({kBody});

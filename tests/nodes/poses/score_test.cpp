@@ -85,14 +85,14 @@ TEST_CASE("consensus is the share of the features there that had voted", "[poses
   const auto features = static_cast<double>(body.scan.count_explained(
       body.model, *sought.model_index, beside(0), sought.params.tolerance, sought.voters));
   REQUIRE(features > 50);
-  sought.votes_per_correspondence = 60;
+  sought.votes_per_correspondence = 30;
   const auto consensus = [&](double support) {
     return poses::consensus(poses::votes_per_feature(sought, body.candidate(beside(0), support)),
                             body.params.terms.score);
   };
   CHECK(consensus(2 * features) == 1);
   CHECK(consensus(0.1 * features) == Approx(std::pow(0.1, 0.15)));
-  sought.votes_per_correspondence = 120;  // support grows with the votes
+  sought.votes_per_correspondence = 60;  // support grows with the votes
   CHECK(consensus(0.2 * features) == Approx(std::pow(0.1, 0.15)));
 }
 
