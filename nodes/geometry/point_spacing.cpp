@@ -16,6 +16,7 @@
 #include "nodes/geometry/extent.hpp"
 #include "nodes/geometry/grid.hpp"
 #include "nodes/geometry/plane_fit.hpp"
+#include "nodes/geometry/select_rows.hpp"
 
 namespace posevote::geometry {
 namespace {
@@ -128,7 +129,7 @@ std::vector<float> nearest_within(const PointMatrix& points,
   const auto rows = rows_that(static_cast<std::size_t>(points.rows()), [&](std::uint32_t i) {
     return vicinity.may_hold(points.row(i).transpose());
   });
-  const PointGrid grid(points(rows, Eigen::all), reach);
+  const PointGrid grid(rows_of(points, rows), reach);
   std::vector<float> nearest(places.size(), std::numeric_limits<float>::infinity());
   graph::parallel_for(places.size(), 32, [&](std::size_t i) {
     grid.for_each_within(places[i], reach, [&least = nearest[i]](std::uint32_t, float squared) {

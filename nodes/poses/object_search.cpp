@@ -117,7 +117,7 @@ Candidates ObjectSearch::look_near(const Eigen::Vector3d& point, double distance
   if (is_full()) return {};
   const Stopwatch watch(seconds_);
   std::vector<Hypothesis> all = proposals_.propose(), there;
-  std::erase_if(all, [this](const Hypothesis& one) { return !taken_.is_clear(one.center); });
+  taken_.leave_clear(all);
   std::ranges::copy_if(all, std::back_inserter(there), [&](const Hypothesis& one) {
     return (one.center.cast<double>() - point).norm() <= distance;
   });
@@ -220,7 +220,7 @@ void ObjectSearch::accept() {
   });
   // What is left leads over what is left, and need not lead over more than the least of the
   // instances: of a bin's many, those on top have far more votes than those below.
-  std::erase_if(proposed_, [this](const Hypothesis& one) { return !taken_.is_clear(one.center); });
+  taken_.leave_clear(proposed_);
   for (Candidate& one : pool_)
     one.elsewhere =
         std::max(least_support_, support_elsewhere(proposed_, one.proposed.center, sought_.model));

@@ -48,6 +48,10 @@ bool TakenPlaces::is_clear(const Eigen::Vector3f& center) const {
   });
 }
 
+void TakenPlaces::leave_clear(std::vector<Hypothesis>& proposals) const {
+  std::erase_if(proposals, [this](const Hypothesis& one) { return !is_clear(one.center); });
+}
+
 bool TakenPlaces::is_clear(const Sought& sought, const Eigen::Isometry3d& T_scene_model) const {
   return is_clear(
              Eigen::Vector3f(posed_center(T_scene_model, sought.model.center).cast<float>())) &&
@@ -55,7 +59,7 @@ bool TakenPlaces::is_clear(const Sought& sought, const Eigen::Isometry3d& T_scen
 }
 
 Candidates collect(Sought& sought, std::vector<Hypothesis> proposals, const TakenPlaces& taken) {
-  std::erase_if(proposals, [&](const Hypothesis& one) { return !taken.is_clear(one.center); });
+  taken.leave_clear(proposals);
   const std::vector<std::size_t> separate =
       separate_poses(proposals, proposed_separation(sought), sought.params.candidates);
   sought.most_support =

@@ -22,6 +22,8 @@ class TakenPlaces {
   /// Where it is, and where it was proposed.
   void take(const Model& model, const Candidate& instance);
   bool is_clear(const Eigen::Vector3f& center) const;
+  /// Takes out the proposals whose place is not.
+  void leave_clear(std::vector<Hypothesis>& proposals) const;
   /// Whether the place of a pose is, and whether it has room beside the instances of all objects.
   bool is_clear(const Sought& sought, const Eigen::Isometry3d& T_scene_model) const;
 
