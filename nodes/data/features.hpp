@@ -26,6 +26,9 @@ struct FeaturePoints {
 /// n x d, one descriptor a row.
 using DescriptorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Such rows where they lie, of a whole matrix or of a part of one: nothing is copied.
+using DescriptorRows = Eigen::Ref<const DescriptorMatrix>;
+
 /// Rows of a FeatureSet that were described at one scale.
 struct Octave {
   float resolution = 0;              ///< [m]; compared exactly: octaves are powers of two

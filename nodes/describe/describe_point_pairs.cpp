@@ -15,6 +15,9 @@
 // Only neighbours that face the same side count, n . n' >= `min_facing`: where p is seen, those
 // may be seen too, while a scan lacks the far side of the object that a model has.
 //
+// Of a depth image only every `image_step`-th point is a neighbour: pixels side by side err alike,
+// so that more of them cost time and tell nothing. Of laser scans and of models all are.
+//
 // Left out are feature points without a usable normal or with fewer than `min_neighbours` such
 // neighbours. Time: O(feature points x neighbours).
 //
@@ -38,6 +41,7 @@ struct Params {
   double radius = 25;
   double min_facing = 0.2;
   int min_neighbours = 10;
+  int image_step = 3;
 };
 
 constexpr int kAngles = PointPairSums::kAngles;
@@ -94,13 +98,16 @@ int describe(const descriptors::Support& support, const geometry::OrientedColumn
 
 FeatureSet describe_point_pairs(const Cloud& cloud, const FeaturePoints& points, const Scale& scale,
                                 const Params& params) {
-  const descriptors::Support support(cloud, points, scale, params.radius);
-  const geometry::GridNormals normals(support.grid(), cloud.normals, [&cloud](std::uint32_t point) {
-    return descriptors::is_oriented(cloud, point);
+  const int step = cloud.view.pixels.minCoeff() > 0 ? params.image_step : 1;
+  const descriptors::Support support(cloud, points, scale, params.radius, step);
+  const Cloud& neighbours = support.neighbours();
+  const geometry::GridNormals normals(support.grid(), neighbours.normals, [&](std::uint32_t point) {
+    return descriptors::is_oriented(neighbours, point);
   });
   const auto one = [&](std::uint32_t point, float* descriptor) {
-    return describe(support, normals.columns(), point, static_cast<float>(params.min_facing),
-                    descriptor) >= params.min_neighbours;
+    const int count = describe(support, normals.columns(), point,
+                               static_cast<float>(params.min_facing), descriptor);
+    return step * count >= params.min_neighbours;
   };
   return support.describe_each(kLength, one);
 }
@@ -110,7 +117,10 @@ const auto registered =
         "describe_point_pairs", describe_point_pairs,
         "Point-pair histograms: distance against four angles (240 numbers).", 1)
         .param("min_facing", &Params::min_facing, "cosine",
-               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1));
+               "Least n . n' of a neighbour; -1 takes all.", graph::in_range(-1, 1))
+        .param("image_step", &Params::image_step, "points",
+               "Of a depth image only every so many are neighbours: pixels side by side err alike.",
+               graph::in_range(1, 16));
 
 }  // namespace
 }  // namespace posevote::describe

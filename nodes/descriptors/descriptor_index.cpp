@@ -23,9 +23,10 @@ using Metric = flann::L2<float>;
 using FlannIndex = flann::NNIndex<Metric>;
 
 /// A view; FLANN's type has no const form, but none of the functions used here writes through it.
-flann::Matrix<float> view(const DescriptorMatrix& matrix, Eigen::Index first, Eigen::Index count) {
-  return {const_cast<float*>(matrix.data() + first * matrix.cols()),
-          static_cast<std::size_t>(count), static_cast<std::size_t>(matrix.cols())};
+flann::Matrix<float> view(const DescriptorRows& rows) {
+  return {const_cast<float*>(rows.data()), static_cast<std::size_t>(rows.rows()),
+          static_cast<std::size_t>(rows.cols()),
+          static_cast<std::size_t>(rows.outerStride()) * sizeof(float)};
 }
 
 DescriptorMatrix stack(const std::vector<const DescriptorMatrix*>& matrices) {
@@ -51,7 +52,7 @@ DescriptorMatrix stack(const std::vector<const DescriptorMatrix*>& matrices) {
   return stacked;
 }
 
-void require_finite(const DescriptorMatrix& matrix, const char* whose) {
+void require_finite(const DescriptorRows& matrix, const char* whose) {
   constexpr std::size_t kGrain = 512;  // rows are long
   const auto is_bad = [&matrix](std::uint32_t i) { return !matrix.row(i).allFinite(); };
   if (!geometry::rows_that(static_cast<std::size_t>(matrix.rows()), is_bad, kGrain).empty())
@@ -92,7 +93,7 @@ void require_blocks(const Blocks& blocks, Eigen::Index columns) {
 }
 
 std::unique_ptr<FlannIndex> build_flann(const DescriptorMatrix& rows, const IndexOptions& options) {
-  const flann::Matrix<float> points = view(rows, 0, rows.rows());
+  const flann::Matrix<float> points = view(rows);
   std::unique_ptr<FlannIndex> index;
   if (options.search == "kd_tree")
     index = std::make_unique<flann::KDTreeSingleIndex<Metric>>(points);
@@ -115,7 +116,7 @@ class BlockIndex {
     }
   }
 
-  std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries) const {
+  std::vector<TwoNearest> nearest_two(const DescriptorRows& queries) const {
     if (exact_) return exact_->nearest_two(queries);
     std::vector<TwoNearest> nearest(static_cast<std::size_t>(queries.rows()));
     graph::parallel_for(nearest.size(), 16, [&](std::size_t query) {
@@ -125,7 +126,7 @@ class BlockIndex {
   }
 
  private:
-  TwoNearest search_flann(const DescriptorMatrix& queries, Eigen::Index query) const;
+  TwoNearest search_flann(const DescriptorRows& queries, Eigen::Index query) const;
 
   IndexOptions options_;
   std::unique_ptr<ExactIndex> exact_;  ///< either this
@@ -133,10 +134,10 @@ class BlockIndex {
   std::unique_ptr<FlannIndex> flann_;
 };
 
-TwoNearest BlockIndex::search_flann(const DescriptorMatrix& queries, Eigen::Index query) const {
+TwoNearest BlockIndex::search_flann(const DescriptorRows& queries, Eigen::Index query) const {
   const bool exact = options_.search == "kd_tree";
   const flann::SearchParams params(exact ? flann::FLANN_CHECKS_UNLIMITED : options_.checks);
-  const flann::Matrix<float> one = view(queries, query, 1);
+  const flann::Matrix<float> one = view(queries.middleRows(query, 1));
   std::vector<std::vector<std::size_t>> found;
   std::vector<std::vector<float>> squared;
   flann_->knnSearch(one, found, squared,
@@ -147,18 +148,19 @@ TwoNearest BlockIndex::search_flann(const DescriptorMatrix& queries, Eigen::Inde
     flann_->radiusSearch(one, found, squared, 1.0001F * squared[0].back() + 1e-30F, params);
   BestTwo best;
   for (const std::size_t row : found[0])
-    best.offer(squared_distance(&queries(query, 0), &rows_(static_cast<Eigen::Index>(row), 0),
-                                static_cast<std::size_t>(rows_.cols())),
-               static_cast<std::uint32_t>(row));
+    best.offer(
+        squared_distance(queries.row(query).data(), &rows_(static_cast<Eigen::Index>(row), 0),
+                         static_cast<std::size_t>(rows_.cols())),
+        static_cast<std::uint32_t>(row));
   return best.result();
 }
 
 /// Calls visit(block of the matrix) for each of its blocks.
 template <class Visit>
-void for_each_block(const DescriptorMatrix& matrix, const Blocks& blocks, const Visit& visit) {
+void for_each_block(const DescriptorRows& matrix, const Blocks& blocks, const Visit& visit) {
   Eigen::Index first = 0;
   for (const std::uint32_t width : blocks) {
-    visit(DescriptorMatrix(matrix.middleCols(first, width)));
+    visit(DescriptorRows(matrix.middleCols(first, width)));
     first += width;
   }
 }
@@ -194,7 +196,7 @@ DescriptorIndex::DescriptorIndex(const std::vector<const DescriptorMatrix*>& mat
 
 DescriptorIndex::~DescriptorIndex() = default;
 
-std::vector<TwoNearest> DescriptorIndex::nearest_two(const DescriptorMatrix& queries,
+std::vector<TwoNearest> DescriptorIndex::nearest_two(const DescriptorRows& queries,
                                                      const Blocks& blocks) const {
   if (queries.rows() == 0) return {};
   if (queries.cols() != data_->columns)
@@ -207,7 +209,7 @@ std::vector<TwoNearest> DescriptorIndex::nearest_two(const DescriptorMatrix& que
   if (blocks.empty()) return data_->indices[0]->nearest_two(queries);
   std::vector<TwoNearest> best;
   std::size_t number = 0;
-  for_each_block(queries, blocks, [&](const DescriptorMatrix& block) {
+  for_each_block(queries, blocks, [&](const DescriptorRows& block) {
     std::vector<TwoNearest> nearest = data_->indices[number++]->nearest_two(block);
     if (best.empty()) return best.swap(nearest);
     for (std::size_t i = 0; i < best.size(); ++i)

@@ -41,7 +41,7 @@ class DescriptorIndex {
   /// The two nearest rows of every query: by that block whose squared ratio is the smallest, of
   /// equal ones the first. Throws std::runtime_error if the queries are of another length than the
   /// rows, in other blocks, or where a value is not finite.
-  std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries,
+  std::vector<TwoNearest> nearest_two(const DescriptorRows& queries,
                                       const Blocks& blocks = {}) const;
 
   const IndexOptions& options() const;

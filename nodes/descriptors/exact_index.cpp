@@ -151,7 +151,7 @@ struct ExactIndex::Data {
   std::size_t count() const { return static_cast<std::size_t>(rows.rows()); }
   float error(float query_length) const;
   void score(const Tiles& queries, std::size_t first, std::size_t row_count, float* scores) const;
-  void match_block(const DescriptorMatrix& queries, std::size_t first, std::size_t query_count,
+  void match_block(const DescriptorRows& queries, std::size_t first, std::size_t query_count,
                    TwoNearest* out) const;
 };
 
@@ -176,7 +176,7 @@ void ExactIndex::Data::score(const Tiles& queries, std::size_t first, std::size_
           scores + tile * kTileQueries * kChunkRows + r, kChunkRows);
 }
 
-void ExactIndex::Data::match_block(const DescriptorMatrix& queries, std::size_t first,
+void ExactIndex::Data::match_block(const DescriptorRows& queries, std::size_t first,
                                    std::size_t query_count, TwoNearest* out) const {
   const DescriptorMatrix brief = axes.shorten(queries, static_cast<Eigen::Index>(first),
                                               static_cast<Eigen::Index>(query_count));
@@ -184,7 +184,7 @@ void ExactIndex::Data::match_block(const DescriptorMatrix& queries, std::size_t 
   std::vector<Search> searches;
   for (std::size_t q = 0; q < query_count; ++q) {
     const auto i = static_cast<Eigen::Index>(q);
-    const float* query = &queries(static_cast<Eigen::Index>(first + q), 0);
+    const float* query = queries.row(static_cast<Eigen::Index>(first + q)).data();
     searches.emplace_back(rows, query, brief.row(i).cast<double>().squaredNorm(),
                           error(brief.row(i).norm()));
   }
@@ -218,7 +218,7 @@ ExactIndex::ExactIndex(DescriptorMatrix rows) {
 
 ExactIndex::~ExactIndex() = default;
 
-std::vector<TwoNearest> ExactIndex::nearest_two(const DescriptorMatrix& queries) const {
+std::vector<TwoNearest> ExactIndex::nearest_two(const DescriptorRows& queries) const {
   const auto count = static_cast<std::size_t>(queries.rows());
   std::vector<TwoNearest> nearest(count);
   const std::size_t blocks = round_up(count, kBlockQueries) / kBlockQueries;

@@ -23,7 +23,7 @@ class ExactIndex {
   ~ExactIndex();
 
   /// Parallel over the queries; `queries` has as many columns as `rows` had, and is finite.
-  std::vector<TwoNearest> nearest_two(const DescriptorMatrix& queries) const;
+  std::vector<TwoNearest> nearest_two(const DescriptorRows& queries) const;
 
  private:
   struct Data;

@@ -18,6 +18,14 @@ const Cloud& checked(const Cloud& cloud, const FeaturePoints& points, const Scal
   return cloud;
 }
 
+/// The rows 0, step, 2 step ...: of a cloud along a curve through space spread evenly.
+std::vector<std::uint32_t> every_nth(const Cloud& cloud, int step) {
+  std::vector<std::uint32_t> rows;
+  for (Eigen::Index i = 0; i < cloud.points.rows(); i += step)
+    rows.push_back(static_cast<std::uint32_t>(i));
+  return rows;
+}
+
 }  // namespace
 
 void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
@@ -59,12 +67,14 @@ FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
   return {std::move(at.points), std::move(at.normals), std::move(descriptors), {}, {}};
 }
 
-Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius)
+Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius,
+                 int step)
     : cloud_(checked(cloud, points, scale)),
       points_(points),
       resolution_(scale.resolution),
       radius_(static_cast<float>(radius) * scale.resolution),
-      grid_(cloud.points, 0.5F * radius_) {}
+      some_(step > 1 ? geometry::select_rows(cloud, every_nth(cloud, step)) : Cloud{}),
+      grid_(neighbours().points, 0.5F * radius_) {}
 
 FeatureSet Support::describe_each(
     int length, const std::function<bool(std::uint32_t point, float* descriptor)>& describe) const {

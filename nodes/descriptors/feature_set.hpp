@@ -25,14 +25,17 @@ FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
 /// The neighbourhoods that a descriptor looks at, in one cloud. Keeps references to its arguments.
 class Support {
  public:
-  /// `radius`: multiples of the resolution. Throws what require_describable throws.
-  Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius);
+  /// `radius`: multiples of the resolution. `step`: only every so many points of the cloud are
+  /// neighbours. Throws what require_describable throws.
+  Support(const Cloud& cloud, const FeaturePoints& points, const Scale& scale, double radius,
+          int step = 1);
 
   const Cloud& cloud() const { return cloud_; }
   const FeaturePoints& points() const { return points_; }
-  const geometry::PointGrid& grid() const { return grid_; }
-  float resolution() const { return resolution_; }  ///< [m]
-  float radius() const { return radius_; }          ///< [m]
+  const Cloud& neighbours() const { return some_.points.rows() > 0 ? some_ : cloud_; }
+  const geometry::PointGrid& grid() const { return grid_; }  ///< of the neighbours
+  float resolution() const { return resolution_; }           ///< [m]
+  float radius() const { return radius_; }                   ///< [m]
 
   /// Calls describe(point, descriptor) in parallel for every oriented feature point, `descriptor`
   /// being `length` numbers to write; where it returns false the point is left out.
@@ -45,6 +48,7 @@ class Support {
   const FeaturePoints& points_;
   float resolution_;
   float radius_;
+  Cloud some_;  ///< empty: all are neighbours
   geometry::PointGrid grid_;
 };
 

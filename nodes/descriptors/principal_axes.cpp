@@ -41,7 +41,7 @@ PrincipalAxes::PrincipalAxes(const DescriptorMatrix& rows) {
   axes_.leftCols(kLength - 1) = solver.eigenvectors().rightCols(kLength - 1);
 }
 
-DescriptorMatrix PrincipalAxes::shorten(const DescriptorMatrix& rows, Eigen::Index first,
+DescriptorMatrix PrincipalAxes::shorten(const DescriptorRows& rows, Eigen::Index first,
                                         Eigen::Index count) const {
   const auto of_interest = rows.middleRows(first, count);
   if (axes_.rows() == 0) return (of_interest.cast<double>().rowwise() - mean_).cast<float>();

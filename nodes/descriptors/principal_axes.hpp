@@ -23,7 +23,7 @@ class PrincipalAxes {
 
   /// The rows [first, first + count) made short. A row moves by at most kMoves of its own length
   /// by rounding.
-  DescriptorMatrix shorten(const DescriptorMatrix& rows, Eigen::Index first,
+  DescriptorMatrix shorten(const DescriptorRows& rows, Eigen::Index first,
                            Eigen::Index count) const;
 
   /// The root of what 512 sums in double may be off where the rest is small, and a float's

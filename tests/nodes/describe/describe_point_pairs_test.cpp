@@ -105,4 +105,36 @@ TEST_CASE("point pairs: neighbours that face away do not count", "[describe]") {
   CHECK(describe_points(around_origin({{where, away}, {-where, level}})).points.rows() == 0);
 }
 
+TEST_CASE("point pairs: of a depth image only every so many points are neighbours", "[describe]") {
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ(), level(0, 0.5F, 0.8660254F);
+  Cloud cloud = around_origin({{Eigen::Vector3f(1.5F, 0, 0), up}, {Eigen::Vector3f(0, 2, 0), up}});
+  const auto both = describe_origin(cloud);
+  cloud.view.pixels = {640, 480};
+  const std::map<std::string, std::string> every_other{
+      {"radius", "6"}, {"min_neighbours", "2"}, {"image_step", "2"}};
+  const auto described_as = [&](const Cloud& of) {
+    return run_node<FeatureSet>(kNode, every_other, of, FeaturePoints{{0}}, Scale{1}).descriptors;
+  };
+  const DescriptorMatrix second = described_as(cloud);
+  REQUIRE(second.rows() == 1);  // it counts as two neighbours
+  CHECK(second.isApprox(describe_origin(around_origin({{Eigen::Vector3f(0, 2, 0), up}})), 1e-6F));
+  cloud.normals.row(1) = level;  // of the first, which plays no part
+  CHECK(described_as(cloud) == second);
+  cloud.view = {};
+  cloud.normals.row(1) = up;
+  CHECK(described_as(cloud).isApprox(both, 1e-6F));
+}
+
+TEST_CASE("point pairs: a third of a depth image describes nearly as all of it does",
+          "[describe]") {
+  Cloud body = bumpy_cloud(1, kResolution);
+  const FeatureSet all = described(kNode, body, 5);
+  body.view.pixels = {640, 480};
+  const FeatureSet some = described(kNode, body, 5);
+  REQUIRE(some.descriptors.rows() == all.descriptors.rows());
+  const std::vector<float> off = differences(all, some);
+  CHECK(off.front() > 0);
+  CHECK(off[off.size() / 2] < 0.1F);
+}
+
 }  // namespace posevote::describe_point_pairs_test
