@@ -98,8 +98,9 @@ void add_confidence(Node& node) {
         std::string("confidence_") + kClueNames[i],
         [i](SegmentParams& params) -> double& { return params.terms.confidence.weights[i]; },
         "log odds",
-        "Weight of that clue in the confidence. Found by posevote calibrate, and moved "
-        "(terms.hpp).",
+        i == kStrangers ? "Weight of that clue in the confidence: 1 by Bayes' rule."
+                        : "Weight of that clue in the confidence. Found by posevote calibrate, and "
+                          "moved (terms.hpp).",
         in_range(-1e6, 1e6));
   const Register<ConfidenceTerms> term{node, &Terms::confidence};
   term("doubtful", &ConfidenceTerms::doubtful, "x min_confidence",
