@@ -18,14 +18,6 @@ const Cloud& checked(const Cloud& cloud, const FeaturePoints& points, const Scal
   return cloud;
 }
 
-/// The rows 0, step, 2 step ...: of a cloud along a curve through space spread evenly.
-std::vector<std::uint32_t> every_nth(const Cloud& cloud, int step) {
-  std::vector<std::uint32_t> rows;
-  for (Eigen::Index i = 0; i < cloud.points.rows(); i += step)
-    rows.push_back(static_cast<std::uint32_t>(i));
-  return rows;
-}
-
 }  // namespace
 
 void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
@@ -73,7 +65,8 @@ Support::Support(const Cloud& cloud, const FeaturePoints& points, const Scale& s
       points_(points),
       resolution_(scale.resolution),
       radius_(static_cast<float>(radius) * scale.resolution),
-      some_(step > 1 ? geometry::select_rows(cloud, every_nth(cloud, step)) : Cloud{}),
+      some_(step > 1 ? geometry::select_rows(cloud, Eigen::seq(0, cloud.points.rows() - 1, step))
+                     : Cloud{}),
       grid_(neighbours().points, 0.5F * radius_) {}
 
 FeatureSet Support::describe_each(
