@@ -46,13 +46,7 @@ FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
   };
   const std::vector<std::uint32_t> kept =
       geometry::rows_that(described.size(), is_described, kGrain);
-  if (kept.size() < described.size()) {
-    DescriptorMatrix some(std::ssize(kept), descriptors.cols());
-    graph::parallel_for(kept.size(), kGrain, [&](std::size_t i) {
-      some.row(static_cast<Eigen::Index>(i)) = descriptors.row(kept[i]);
-    });
-    descriptors = std::move(some);
-  }
+  if (kept.size() < described.size()) descriptors = geometry::rows_of(descriptors, kept, kGrain);
   std::vector<std::uint32_t> kept_points;
   for (const std::uint32_t i : kept) kept_points.push_back(points.indices[i]);
   Cloud at = geometry::select_rows(cloud, kept_points);
