@@ -64,13 +64,11 @@ ObjectSearch* ahead_of(ObjectSearch* best, const Searches& searches, const ScanS
   return ahead;
 }
 
-constexpr double kSure = 0.95;  // a confidence from which on nobody else is asked
-
 /// The one that has a pose where `best` has its own, though not its best, and goes before it, or
 /// that. What was taken out since may have uncovered it.
 ObjectSearch* ahead_there(ObjectSearch* best, const Searches& searches, const ScanState& scan) {
   const Claim claim = claim_of(*best);
-  if (claim.candidate.confidence >= kSure) return best;
+  if (claim.candidate.confidence >= best->terms().schedule.sure) return best;
   const Eigen::Vector3d center = posed_center(claim.candidate.T_scene_model, claim.model.center);
   std::vector<Candidates> others(searches.size());
   graph::parallel_for(searches.size(), 1, [&](std::size_t i) {

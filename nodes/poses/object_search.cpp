@@ -187,8 +187,9 @@ std::optional<Candidate> ObjectSearch::best_of(Candidates::const_iterator begin,
 }
 
 /// Once `best` is an instance, its place is closed to whatever else was proposed there; so the first
-/// of those that were no finalists are refined before.
+/// of those that were no finalists are refined before, unless it is sure.
 Candidate ObjectSearch::best_of_place(const Candidate& best) const {
+  if (best.confidence >= sought_.terms.schedule.sure) return best;
   const auto center = [&](const Candidate& one) {
     return posed_center(one.T_scene_model, sought_.model.center);
   };

@@ -13,6 +13,17 @@
 
 namespace posevote::poses {
 
+namespace {
+
+/// How many of a sorted pool, `most` at most, have so much of the best one's rank.
+std::size_t count_near_best(const Candidates& pool, double share, std::size_t most) {
+  const auto is_behind = [&](const Candidate& one) { return one.rank < share * pool[0].rank; };
+  const auto end = std::find_if(pool.begin(), pool.end(), is_behind);
+  return std::min(static_cast<std::size_t>(end - pool.begin()), most);
+}
+
+}  // namespace
+
 void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::size_t end,
                 const Closeness& look) {
   graph::parallel_for(end - begin, 1, [&](std::size_t i) { judge(sought, pool[begin + i], look); });
@@ -27,7 +38,8 @@ void make_shortlist(const Sought& sought, Candidates& pool, int places) {
     grade_at_a_glance(sought, pool[i]);
   });
   sort_by_rank(pool.begin(), pool.end());
-  pool.resize(static_cast<std::size_t>(places));
+  pool.resize(count_near_best(pool, sought.terms.schedule.sketch_hopeless,
+                              static_cast<std::size_t>(places)));
 }
 
 void sketch(const Sought& sought, Candidates& pool, const Improve& improve) {
@@ -40,7 +52,8 @@ void sketch(const Sought& sought, Candidates& pool, const Improve& improve) {
 void bring_closer(const Sought& sought, Candidates& pool) {
   if (!sought.params.refine) return;
   const ScheduleTerms& terms = sought.terms.schedule;
-  const std::size_t count = std::min(static_cast<std::size_t>(terms.promising), pool.size());
+  const std::size_t count =
+      count_near_best(pool, terms.closer_hopeless, static_cast<std::size_t>(terms.promising));
   graph::parallel_for(count, 1, [&](std::size_t i) { take_first_steps(sought, pool[i]); });
   judge_part(sought, pool, 0, count, {{terms.sketch_points}});
   sort_by_rank(pool.begin(), pool.end());

@@ -7,8 +7,10 @@
 //   glance           the best of these, 600      the same, by the nearest points of the scan, with
 //                    (160)                       twice the tolerance, as proposals lie off by part
 //                                                of a bandwidth
-//   sketch           the shortlist, 160 (10)     300, after their proposer improved them
-//   bring closer     the promising, 40           300, after the first steps of ICP
+//   sketch           the shortlist, 160 (10),    300, after their proposer improved them
+//                    if not far behind
+//   bring closer     the promising, 40, if not   300, after the first steps of ICP
+//                    far behind
 //   look             those that may be finalists 1000
 //   refine           the finalists, 4, and twins 4000, after ICP
 //   polish           the one that is chosen      all points, after ICP by ten thousand
@@ -32,7 +34,7 @@ using Improve = std::function<Hypothesis(const Hypothesis&)>;
 void judge_part(const Sought& sought, Candidates& pool, std::size_t begin, std::size_t end,
                 const Closeness& look);
 
-/// Keeps as many as there are `places`, by a glance if there are more.
+/// Keeps as many as there are `places`, by a glance if there are more; then none far behind the best.
 void make_shortlist(const Sought& sought, Candidates& pool, int places);
 
 /// Improves them all, and judges and sorts them by a sketch.

@@ -21,8 +21,9 @@ struct ScheduleTerms {
   int shortlist = 160, shortlist_again = 10, promising = 40, finalists = 4;
   int glance_points = 50, sketch_points = 300, look_points = 1000, close_points = 4000;
   double glance_reach = 2;
-  double hopeless = 0.4;
+  double sketch_hopeless = 0.3, closer_hopeless = 0.1, hopeless = 0.4;
   double hopeless_odds = -11;
+  double sure = 0.95;
 };
 
 /// Which poses are the same (pool.hpp).

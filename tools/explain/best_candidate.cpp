@@ -19,7 +19,8 @@ poses::SegmentParams deeper(const poses::SegmentParams& params) {
   more.candidates = std::min(10000, 4 * params.candidates);
   schedule.shortlist = std::min(10000, 4 * schedule.shortlist);
   schedule.promising = schedule.finalists = std::max(150, schedule.promising);
-  schedule.hopeless = 0;
+  schedule.sketch_hopeless = schedule.closer_hopeless = schedule.hopeless = 0;
+  schedule.sure = 1;
   return more;
 }
 

@@ -15,10 +15,11 @@ namespace {
 
 /// The search's best, of the body turned over, which has by far the most support, and of the body
 /// itself, moved so far from there [m].
-std::optional<Candidate> best_of_turned_and_moved(double metres) {
+std::optional<Candidate> best_of_turned_and_moved(double metres, double sure) {
   SoughtBody body({kBody});
   body.params.min_confidence = body.params.min_score = 0;
   body.params.terms.schedule.finalists = 1;
+  body.params.terms.schedule.sure = sure;
   body.params.terms.score.trust_in_support = 5;
   body.params.refine = false;
   const std::vector<Hypothesis> proposals{body.hypothesis(beside(0, std::numbers::pi), 1000),
@@ -38,12 +39,15 @@ double turn_from_body(const Candidate& candidate) {
 }  // namespace
 
 TEST_CASE("before its place is closed, what else was proposed there is refined", "[poses]") {
-  const auto here = best_of_turned_and_moved(0.002);
+  const auto here = best_of_turned_and_moved(0.002, 0.95);
   REQUIRE(here);
   CHECK(turn_from_body(*here) < 0.1);
-  const auto elsewhere = best_of_turned_and_moved(0.05);  // has its own turn, later
+  const auto elsewhere = best_of_turned_and_moved(0.05, 0.95);  // has its own turn, later
   REQUIRE(elsewhere);
   CHECK(turn_from_body(*elsewhere) > 3);
+  const auto sure = best_of_turned_and_moved(0.002, 0);  // nobody else is asked
+  REQUIRE(sure);
+  CHECK(turn_from_body(*sure) > 3);
 }
 
 TEST_CASE("once something was taken out, more is asked for, of what convinced nobody if wanted",

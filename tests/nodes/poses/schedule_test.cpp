@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/poses/schedule.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 
@@ -35,6 +36,21 @@ TEST_CASE("the shortlist keeps the best, by a glance", "[poses]") {
   CHECK(few[0].fit.facing == 0);
 }
 
+TEST_CASE("nobody far behind the best at a glance is on the shortlist", "[poses]") {
+  SoughtBody body({kBody});
+  const auto kept = [&](double share) {
+    body.params.terms.schedule.sketch_hopeless = share;
+    poses::Candidates pool = far_to_near(body, 12);
+    poses::make_shortlist(body.sought(), pool, 11);
+    for (const poses::Candidate& one : pool) CHECK(one.rank >= share * pool[0].rank);
+    return pool.size();
+  };
+  CHECK(kept(0) == 11);
+  CHECK(kept(1) == 1);
+  CHECK(kept(0.5) > 1);
+  CHECK(kept(0.5) < 11);
+}
+
 TEST_CASE("the sketch is of improved poses, the best first", "[poses]") {
   const SoughtBody body({kBody});
   poses::Candidates pool{body.candidate(beside(0.3)), body.candidate(beside(0.1))};
@@ -55,6 +71,21 @@ TEST_CASE("the promising are brought closer, the others stay", "[poses]") {
   poses::bring_closer(body.sought(), pool);
   CHECK(distance_to_body(pool[0].T_scene_model) < 0.008);
   CHECK(pool[1].T_scene_model.matrix() == beside(-0.012).matrix());
+}
+
+TEST_CASE("nobody far behind the best sketch is brought closer", "[poses]") {
+  SoughtBody body({kBody});
+  const auto moved = [&](double share) {
+    body.params.terms.schedule.closer_hopeless = share;
+    poses::Candidates pool{body.candidate(beside(0.012)), body.candidate(beside(-0.012))};
+    pool[0].rank = 1, pool[1].rank = 0.2;
+    poses::bring_closer(body.sought(), pool);
+    return std::ranges::count_if(pool, [](const poses::Candidate& one) {
+      return distance_to_body(one.T_scene_model) < 0.011;
+    });
+  };
+  CHECK(moved(0.1) == 2);
+  CHECK(moved(0.3) == 1);
 }
 
 TEST_CASE("finalists are looked at in the order of their ranks, as far as needed", "[poses]") {
