@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -20,13 +20,14 @@ auto joined_ranges(std::size_t count, const Make& make, std::size_t grain = 8192
   graph::parallel_for(pieces, 1, [&](std::size_t p) {
     parts[p] = make(p * count / pieces, (p + 1) * count / pieces);
   });
-  auto all = std::move(parts.front());
-  std::size_t size = all.size();
-  for (std::size_t p = 1; p < pieces; ++p) size += parts[p].size();
-  all.reserve(size);
-  for (std::size_t p = 1; p < pieces; ++p)
-    all.insert(all.end(), std::make_move_iterator(parts[p].begin()),
-               std::make_move_iterator(parts[p].end()));
+  if (pieces == 1) return std::move(parts.front());
+  std::size_t size = 0;
+  std::vector<std::size_t> begins;
+  for (const auto& part : parts) begins.push_back(std::exchange(size, size + part.size()));
+  decltype(make(count, count)) all(size);
+  graph::parallel_for(pieces, 1, [&](std::size_t p) {
+    std::ranges::move(parts[p], all.begin() + static_cast<std::ptrdiff_t>(begins[p]));
+  });
   return all;
 }
 

@@ -49,8 +49,8 @@ bool is_sparse(const PointMatrix& points, double edge) {
   for (Eigen::Index i = 0; i < points.rows() && 2 * sharing < points.rows(); ++i) {
     std::uint64_t cube = 0;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double at = std::clamp(std::floor(points(i, axis) / edge), -kMost, kMost - 1);
-      cube = (cube << 21) | static_cast<std::uint64_t>(at + kMost);
+      const double at = std::clamp(points(i, axis) / edge + kMost, 0.0, 2 * kMost - 1);
+      cube = (cube << 21) | static_cast<std::uint64_t>(at);
     }
     const bool is_shared = cube == before || !cubes.insert(cube).second;  // neighbours in a row
     sharing += is_shared ? 1 : 0;

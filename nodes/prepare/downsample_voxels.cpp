@@ -40,12 +40,26 @@ struct Group {
   Eigen::RowVector3d colors = Eigen::RowVector3d::Zero();
   double count = 0;
 
+  /// Whether there are points whose normals have a mean.
+  bool has_normal() const { return normals.norm() > 1e-6 * count; }
+
   void add(const Cloud& cloud, std::uint32_t i) {
     points += cloud.points.row(i).cast<double>();
     normals += cloud.normals.row(i).cast<double>();
     if (cloud.colors.rows() > 0) colors += cloud.colors.row(i).cast<double>();
     ++count;
   }
+};
+
+/// An output point.
+struct Made {
+  explicit Made(const Group& of)
+      : point((of.points / of.count).cast<float>()),
+        normal(of.normals.normalized().cast<float>()),
+        color((of.colors / of.count).cast<float>()) {}
+  Made() = default;
+
+  Eigen::RowVector3f point, normal, color;
 };
 
 /// The axis that the normals run along, one way or the other.
@@ -79,23 +93,22 @@ Cloud downsample_voxels(const Cloud& cloud, const Scale& scale, const Params& pa
   const std::vector<std::uint32_t> usable = geometry::oriented_rows(cloud.points, cloud.normals);
   const geometry::Voxels voxels = geometry::group_by_voxel(
       cloud.points, usable, static_cast<float>(params.leaf_size) * scale.resolution);
-  const auto groups =
-      geometry::joined_ranges(voxels.size(), [&](std::size_t begin, std::size_t end) {
-        std::vector<Group> made;
-        for (std::size_t v = begin; v < end; ++v)
-          for (const Group& side : group(cloud, voxels[v]))
-            if (side.normals.norm() > 1e-6 * side.count) made.push_back(side);
-        return made;
-      });
-  const auto count = static_cast<Eigen::Index>(groups.size());
+  const auto made = geometry::joined_ranges(voxels.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Made> points;
+    for (std::size_t v = begin; v < end; ++v)
+      for (const Group& side : group(cloud, voxels[v]))
+        if (side.has_normal()) points.emplace_back(side);
+    return points;
+  });
+  const auto count = static_cast<Eigen::Index>(made.size());
   const bool is_colored = cloud.colors.rows() > 0;
   Cloud out{PointMatrix(count, 3), PointMatrix(count, 3), cloud.view,
             ColorMatrix(is_colored ? count : 0, 3)};
-  graph::parallel_for(groups.size(), 2048, [&](std::size_t i) {
+  graph::parallel_for(made.size(), 2048, [&](std::size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
-    out.points.row(row) = (groups[i].points / groups[i].count).cast<float>();
-    out.normals.row(row) = groups[i].normals.normalized().cast<float>();
-    if (is_colored) out.colors.row(row) = (groups[i].colors / groups[i].count).cast<float>();
+    out.points.row(row) = made[i].point;
+    out.normals.row(row) = made[i].normal;
+    if (is_colored) out.colors.row(row) = made[i].color;
   });
   return geometry::select_rows(
       out, geometry::rows_along_curve(out.points,

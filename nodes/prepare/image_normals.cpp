@@ -42,6 +42,7 @@ class PixelPlanes {
     const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     for (auto* column : {&x_, &y_, &z_}) column->assign(size + geometry::kGridPadding, kNowhere);
     weights_.assign(size + geometry::kGridPadding, 0);
+    point_in_.resize(size);
     find_places(scan.points);
     const auto no_order = [](const Place& a, const Place& b) { return a.pixel >= b.pixel; };
     complete_ = (places_.empty() || places_.back().pixel != kOutside) &&
@@ -92,9 +93,9 @@ class PixelPlanes {
 
   Eigen::Vector3f point(std::uint32_t pixel) const { return {x_[pixel], y_[pixel], z_[pixel]}; }
 
-  /// Normals of all pixels.
-  PointMatrix normals(float radius, int min_neighbours) const {
-    PointMatrix normals = PointMatrix::Zero(Eigen::Index{width_} * height_, 3);
+  /// Normals of all points, `count` with those that are not finite.
+  PointMatrix normals(Eigen::Index count, float radius, int min_neighbours) const {
+    PointMatrix normals = PointMatrix::Zero(count, 3);
     const int columns = (width_ - 1) / kTile + 1, rows = (height_ - 1) / kTile + 1;
     const std::vector<Tile::Patch> corners = tile_corners(columns, rows, radius, min_neighbours);
     graph::parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row) {
@@ -150,6 +151,7 @@ class PixelPlanes {
       y_[pixel] = points(i, 1);
       z_[pixel] = points(i, 2);
       weights_[pixel] = 1;
+      point_in_[pixel] = i;
     });
   }
 
@@ -224,7 +226,8 @@ class PixelPlanes {
                    PointMatrix& normals) const {
     for (std::size_t i = 0; i < block.count; ++i)
       if (!tile.is_flush(point(block.pixels[i]), ground)) return false;
-    for (std::size_t i = 0; i < block.count; ++i) normals.row(block.pixels[i]) = ground.normal;
+    for (std::size_t i = 0; i < block.count; ++i)
+      normals.row(point_in_[block.pixels[i]]) = ground.normal;
     return true;
   }
 
@@ -240,7 +243,7 @@ class PixelPlanes {
       Eigen::Vector3f middle = Eigen::Vector3f::Zero();
       for (auto p = group; p != end; ++p) middle += point(*p) / static_cast<float>(end - group);
       const Eigen::Vector3f normal = fit(middle, radius, min_neighbours).normal;
-      for (auto p = group; p != end; ++p) normals.row(*p) = normal;
+      for (auto p = group; p != end; ++p) normals.row(point_in_[*p]) = normal;
       end = group;
     }
   }
@@ -249,6 +252,7 @@ class PixelPlanes {
   Eigen::Vector3f viewpoint_;
   Eigen::Vector2f low_, per_ray_;  ///< first pixel's border; pixels in a unit of x / z and y / z
   std::vector<float> x_, y_, z_, weights_;  ///< row by row, padded; weight 0: no measurement
+  std::vector<std::uint32_t> point_in_;     ///< each pixel with one
   std::vector<Place> places_;
   bool complete_ = false;
 };
@@ -274,12 +278,7 @@ std::optional<PointMatrix> image_normals(const Scan& scan, float smallest, float
     });
   });
   if (!is_quick(radius)) return std::nullopt;
-  const PointMatrix of_pixels = planes.normals(radius, min_neighbours);
-  PointMatrix normals = PointMatrix::Zero(scan.points.rows(), 3);
-  graph::parallel_for(places.size(), 8192, [&](std::size_t i) {
-    normals.row(places[i].point) = of_pixels.row(places[i].pixel);
-  });
-  return normals;
+  return planes.normals(scan.points.rows(), radius, min_neighbours);
 }
 
 }  // namespace posevote::prepare
