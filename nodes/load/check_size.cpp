@@ -11,7 +11,6 @@
 //
 //   check_size: {in: [raw_scan, library], out: scan}
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <memory>
