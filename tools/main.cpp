@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line: its subcommands register themselves (tools/command_line.hpp), tools/program.hpp
 // makes one tree of them.
-#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -12,20 +11,13 @@
 #include "graph/plugin.hpp"
 #include "graph/problem.hpp"
 #include "tools/command_line.hpp"
+#include "tools/heap.hpp"
 #include "tools/program.hpp"
 #include "tools/progress/console.hpp"
 
 namespace {
 
 using namespace posevote;
-
-/// What one frame frees the next one takes. Otherwise the C library gives large blocks back to the
-/// system, which clears them again page by page: a tenth of the time that the densities of half a
-/// million votes take, a hundredth of a whole RGB-D frame's.
-void keep_memory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
-}
 
 /// Exit status 2 and a message for what the user can mend; 1 for what went wrong while it ran.
 int run(const std::function<int()>& command) {
@@ -78,7 +70,7 @@ bool has_extras(const CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_memory();
+  keep_heap();
   console::begin();
   remember_command(argc, argv);
   const std::unique_ptr<Program> program = make_program();

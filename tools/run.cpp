@@ -12,6 +12,7 @@
 #include "pipelines/library.hpp"
 #include "tools/command_line.hpp"
 #include "tools/commands.hpp"
+#include "tools/heap.hpp"
 #include "tools/json_answer.hpp"
 #include "tools/manifest/run_folder.hpp"
 #include "tools/progress/frame_report.hpp"
@@ -39,6 +40,7 @@ graph::RunSummary run_scenes(const RunCommand& command, const StreamOptions& opt
                              const Configuration& configuration, const graph::Constants& constants,
                              stream::Scans& scans, const std::atomic<bool>& interrupted,
                              std::size_t& found) {
+  const ReadyHeap heap;
   graph::Activity activity;
   stream::ScanSizes sizes;
   FrameReport report(command, configuration.scenes, scans.count(), activity, interrupted);

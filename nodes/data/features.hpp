@@ -33,13 +33,16 @@ using DescriptorRows = Eigen::Ref<const DescriptorMatrix>;
 struct Octave {
   float resolution = 0;              ///< [m]; compared exactly: octaves are powers of two
   std::uint32_t begin = 0, end = 0;  ///< rows
+  /// Of these rows, where sets were joined: what describes a large scan is not copied.
+  std::shared_ptr<const DescriptorMatrix> descriptors;
 };
 
 /// Oriented feature points and their descriptors; row i of each belongs together.
 struct FeatureSet {
-  PointMatrix points;            ///< n x 3 [m]
-  PointMatrix normals;           ///< n x 3 unit
-  DescriptorMatrix descriptors;  ///< n x d, compared by the Euclidean distance
+  PointMatrix points;   ///< n x 3 [m]
+  PointMatrix normals;  ///< n x 3 unit
+  /// n x d, compared by the Euclidean distance; empty where the octaves have their own
+  DescriptorMatrix descriptors;
   /// Several descriptors side by side, each compared by itself: their numbers of columns, of sum d.
   /// Empty: one descriptor.
   std::vector<std::uint32_t> blocks;
@@ -55,7 +58,13 @@ inline bool same_scale(const Octave& a, float resolution) {
 /// The octaves, of which there always is one.
 inline std::vector<Octave> octaves_of(const FeatureSet& features) {
   if (!features.octaves.empty()) return features.octaves;
-  return {{0, 0, static_cast<std::uint32_t>(features.points.rows())}};
+  return {{0, 0, static_cast<std::uint32_t>(features.points.rows()), nullptr}};
+}
+
+/// The descriptors of an octave of theirs.
+inline DescriptorRows descriptors_of(const FeatureSet& features, const Octave& octave) {
+  if (octave.descriptors) return *octave.descriptors;
+  return features.descriptors.middleRows(octave.begin, octave.end - octave.begin);
 }
 
 struct Model;

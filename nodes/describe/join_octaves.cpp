@@ -22,11 +22,9 @@ std::tuple<std::shared_ptr<const Cloud>, FeatureSet> join_octaves(
     const PerObject<Cloud>& clouds, const PerObject<FeatureSet>& features,
     const PerObject<Scale>& octaves, const Params& params) {
   if (clouds.slots.empty()) throw std::runtime_error("there are no octaves");
-  std::vector<const FeatureSet*> sets;
   std::vector<Scale> scales;
-  for (const auto& slot : features.slots) sets.push_back(slot.get());
   for (const auto& slot : octaves.slots) scales.push_back(*slot);
-  FeatureSet all = descriptors::stack_octaves(sets, scales);
+  FeatureSet all = descriptors::stack_octaves(features.slots, scales);
   if (all.points.rows() == 0 && !params.may_be_none)
     throw std::runtime_error(
         "no feature point of the scan has enough neighbours and a normal to be described");

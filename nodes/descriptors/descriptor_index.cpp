@@ -29,25 +29,25 @@ flann::Matrix<float> view(const DescriptorRows& rows) {
           static_cast<std::size_t>(rows.outerStride()) * sizeof(float)};
 }
 
-DescriptorMatrix stack(const std::vector<const DescriptorMatrix*>& matrices) {
+DescriptorMatrix stack(const std::vector<DescriptorRows>& matrices) {
   Eigen::Index rows = 0, columns = 0;
-  for (const DescriptorMatrix* matrix : matrices) {
-    if (matrix->rows() == 0) continue;
-    if (rows > 0 && matrix->cols() != columns)
-      throw std::runtime_error("descriptors of " + std::to_string(matrix->cols()) + " and of " +
+  for (const DescriptorRows& matrix : matrices) {
+    if (matrix.rows() == 0) continue;
+    if (rows > 0 && matrix.cols() != columns)
+      throw std::runtime_error("descriptors of " + std::to_string(matrix.cols()) + " and of " +
                                std::to_string(columns) + " numbers cannot share an index");
-    columns = matrix->cols();
-    rows += matrix->rows();
+    columns = matrix.cols();
+    rows += matrix.rows();
   }
   if (rows == 0 || columns == 0) throw std::runtime_error("there are no descriptors to search");
   if (rows >= std::numeric_limits<int>::max())
     throw std::runtime_error("too many descriptors for one index: " + std::to_string(rows));
   DescriptorMatrix stacked(rows, columns);
   Eigen::Index row = 0;
-  for (const DescriptorMatrix* matrix : matrices) {
-    if (matrix->rows() == 0) continue;
-    stacked.middleRows(row, matrix->rows()) = *matrix;
-    row += matrix->rows();
+  for (const DescriptorRows& matrix : matrices) {
+    if (matrix.rows() == 0) continue;
+    stacked.middleRows(row, matrix.rows()) = matrix;
+    row += matrix.rows();
   }
   return stacked;
 }
@@ -174,8 +174,8 @@ struct DescriptorIndex::Data {
   std::vector<std::unique_ptr<const BlockIndex>> indices;
 };
 
-DescriptorIndex::DescriptorIndex(const std::vector<const DescriptorMatrix*>& matrices,
-                                 IndexOptions options, Blocks blocks) {
+DescriptorIndex::DescriptorIndex(const std::vector<DescriptorRows>& matrices, IndexOptions options,
+                                 Blocks blocks) {
   require_valid(options);
   DescriptorMatrix rows = stack(matrices);
   require_finite(rows, "the models'");
@@ -237,18 +237,15 @@ LibraryOctave index_octave(const std::vector<std::shared_ptr<const Model>>& mode
                            float resolution, const IndexOptions& options) {
   LibraryOctave octave;
   octave.resolution = resolution;
-  std::vector<DescriptorMatrix> parts;
+  std::vector<DescriptorRows> matrices;
   std::uint32_t first = 0;
   for (std::uint32_t m = 0; m < models.size(); ++m)
     for (const Octave& rows : octaves_of(models[m]->features)) {
       if (rows.resolution != resolution || rows.begin == rows.end) continue;
       octave.rows.push_back({m, rows.begin, first});
-      parts.emplace_back(
-          models[m]->features.descriptors.middleRows(rows.begin, rows.end - rows.begin));
+      matrices.push_back(descriptors_of(models[m]->features, rows));
       first += rows.end - rows.begin;
     }
-  std::vector<const DescriptorMatrix*> matrices;
-  for (const DescriptorMatrix& part : parts) matrices.push_back(&part);
   octave.index =
       std::make_shared<const DescriptorIndex>(matrices, options, models[0]->features.blocks);
   return octave;

@@ -34,7 +34,7 @@ class DescriptorIndex {
   /// Stacks the matrices in their order: row r of matrix i becomes row r + the rows of the matrices
   /// before. Throws std::runtime_error if there is no row, if the matrices differ in length, where
   /// a value is not finite, if the blocks are not the columns, or if an option is out of range.
-  DescriptorIndex(const std::vector<const DescriptorMatrix*>& matrices, IndexOptions options,
+  DescriptorIndex(const std::vector<DescriptorRows>& matrices, IndexOptions options,
                   Blocks blocks = {});
   ~DescriptorIndex();
 

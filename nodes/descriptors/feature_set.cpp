@@ -18,6 +18,13 @@ const Cloud& checked(const Cloud& cloud, const FeaturePoints& points, const Scal
   return cloud;
 }
 
+/// Keeps those rows, in place: a large scan's take tens of megabytes.
+void close_gaps(DescriptorMatrix& descriptors, const std::vector<std::uint32_t>& kept) {
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    if (kept[k] != k) descriptors.row(static_cast<Eigen::Index>(k)) = descriptors.row(kept[k]);
+  descriptors.conservativeResize(static_cast<Eigen::Index>(kept.size()), Eigen::NoChange);
+}
+
 }  // namespace
 
 void require_describable(const Cloud& cloud, const FeaturePoints& points, const Scale& scale) {
@@ -46,7 +53,7 @@ FeatureSet keep_described(const Cloud& cloud, const FeaturePoints& points,
   };
   const std::vector<std::uint32_t> kept =
       geometry::rows_that(described.size(), is_described, kGrain);
-  if (kept.size() < described.size()) descriptors = geometry::rows_of(descriptors, kept, kGrain);
+  close_gaps(descriptors, kept);
   std::vector<std::uint32_t> kept_points;
   for (const std::uint32_t i : kept) kept_points.push_back(points.indices[i]);
   Cloud at = geometry::select_rows(cloud, kept_points);

@@ -45,15 +45,19 @@ void check_cloud(const Cloud& cloud) {
 
 void check_features(const FeatureSet& features) {
   require_count(features.normals.rows(), features.points.rows(), "feature normals");
-  require_count(features.descriptors.rows(), features.points.rows(), "descriptors");
   require(features.points.allFinite(), "feature points are not finite");
   require_unit(features.normals, false, "feature normal");
+  Eigen::Index described = features.descriptors.rows();
   std::uint32_t next = 0;
   for (const Octave& octave : features.octaves) {
     require(octave.begin == next && octave.end >= octave.begin, "octaves overlap");
     next = octave.end;
+    if (!octave.descriptors) continue;
+    require_count(octave.descriptors->rows(), next - octave.begin, "descriptors");
+    described += octave.descriptors->rows();
   }
   if (!features.octaves.empty()) require_count(next, features.points.rows(), "features in octaves");
+  require_count(described, features.points.rows(), "descriptors");
 }
 
 /// Points lie in the bounding box, so within half its diagonal, give or take rounding.

@@ -28,13 +28,14 @@ void put_numbers(ByteWriter& out, const std::vector<std::uint32_t>& numbers) {
 void put_features(ByteWriter& out, const FeatureSet& features) {
   out.put_matrix(features.points);
   out.put_matrix(features.normals);
-  out.put_matrix(features.descriptors);
   put_numbers(out, features.blocks);
-  out.put(std::uint64_t{features.octaves.size()});
-  for (const Octave& octave : features.octaves) {
+  const std::vector<Octave> octaves = octaves_of(features);
+  out.put(std::uint64_t{octaves.size()});
+  for (const Octave& octave : octaves) {
     out.put(octave.resolution);
     out.put(octave.begin);
     out.put(octave.end);
+    out.put_matrix(descriptors_of(features, octave));
   }
 }
 
@@ -124,7 +125,6 @@ FeatureSet get_features(ByteReader& in) {
   FeatureSet features;
   features.points = in.get_matrix<PointMatrix>();
   features.normals = in.get_matrix<PointMatrix>();
-  features.descriptors = in.get_matrix<DescriptorMatrix>();
   features.blocks = get_numbers(in);
   const auto octaves = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < octaves; ++i) {
@@ -132,6 +132,8 @@ FeatureSet get_features(ByteReader& in) {
     octave.resolution = in.get<float>();
     octave.begin = in.get<std::uint32_t>();
     octave.end = in.get<std::uint32_t>();
+    octave.descriptors =
+        std::make_shared<const DescriptorMatrix>(in.get_matrix<DescriptorMatrix>());
   }
   return features;
 }

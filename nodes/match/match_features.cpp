@@ -39,8 +39,8 @@ struct Params {
 /// The matches of the scene's features at one scale, to be added to those of each model.
 void match_octave(const FeatureSet& scene, const Octave& rows, const LibraryOctave& library,
                   const Params& params, std::vector<Correspondences>& matches) {
-  const std::vector<descriptors::TwoNearest> nearest = library.index->nearest_two(
-      scene.descriptors.middleRows(rows.begin, rows.end - rows.begin), scene.blocks);
+  const std::vector<descriptors::TwoNearest> nearest =
+      library.index->nearest_two(descriptors_of(scene, rows), scene.blocks);
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const float ratio = descriptors::squared_ratio(nearest[i]);
     const float distance = std::sqrt(nearest[i].squared[0]);

@@ -35,7 +35,7 @@ struct Params : descriptors::IndexOptions {
 /// What training made of one model at one octave.
 struct Part {
   const Cloud& cloud;
-  const FeatureSet& features;
+  std::shared_ptr<const FeatureSet> features;
   const Symmetries& symmetries;        ///< of the finest
   const Symmetries& shape_symmetries;  ///< of this octave
   const NearSymmetries& near_symmetries;
@@ -68,10 +68,10 @@ Model assemble_model(const ModelFile& file, const Mesh& mesh, const std::vector<
   Model model = shape_of(file, mesh, octaves.at(0));
   for (std::size_t k = 1; k < octaves.size(); ++k)
     model.coarser.push_back(std::make_shared<const Model>(shape_of(file, mesh, octaves[k])));
-  std::vector<const FeatureSet*> features;
+  std::vector<std::shared_ptr<const FeatureSet>> features;
   std::vector<Scale> scales;
   for (const Part& part : octaves) {
-    features.push_back(&part.features);
+    features.push_back(part.features);
     scales.push_back(part.scale);
   }
   model.features = descriptors::stack_octaves(features, scales);
@@ -127,7 +127,7 @@ ModelLibrary assemble_library(const ModelFiles& files, const PerObject<Mesh>& me
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<Part> parts;
     for (std::size_t slot = i; slot < octaves.size(); slot += count)
-      parts.push_back({clouds[slot], features[slot], symmetries[i], symmetries[slot],
+      parts.push_back({clouds[slot], features.slots[slot], symmetries[i], symmetries[slot],
                        near_symmetries[slot], outlines[slot], octaves[slot]});
     library.models.push_back(
         std::make_shared<const Model>(assemble_model(files[i], meshes[i], parts, params)));

@@ -98,7 +98,7 @@ std::string line_of(const RunStatus& status) {
   return text + "\n";
 }
 
-nlohmann::ordered_json to_json(const RunStatus& status) {
+nlohmann::ordered_json json_of(const RunStatus& status) {
   return {{"out", status.out.string()}, {"state", state_of(status)}, {"answered", status.done},
           {"failed", status.failed},    {"left", status.left},       {"frames_per_s", status.rate},
           {"host", status.host},        {"process", status.process}};
@@ -140,7 +140,7 @@ int status_command(const StatusCommand& command) {
     all.failed += status.failed;
     all.left += status.left;
     lines += line_of(status);
-    runs.push_back(to_json(status));
+    runs.push_back(json_of(status));
   }
   if (command.out.size() > 1)
     lines +=

@@ -49,7 +49,7 @@ inline double self_match_rate(const std::string& node, float noise,
   const FeatureSet body = described(node, painted(bumpy_cloud(1, kResolution)), 2, params);
   const FeatureSet found = described(node, copy, 5, params);
   const auto nearest =
-      descriptors::DescriptorIndex({&body.descriptors}, {}).nearest_two(found.descriptors);
+      descriptors::DescriptorIndex({body.descriptors}, {}).nearest_two(found.descriptors);
   double right = 0;
   for (std::size_t i = 0; i < nearest.size(); ++i)
     right += (body.points.row(nearest[i].row[0]) - found.points.row(static_cast<Eigen::Index>(i)))

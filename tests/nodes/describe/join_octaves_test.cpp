@@ -27,8 +27,9 @@ TEST_CASE("the features of all octaves of a scan come together", "[describe]") {
                   list_of<Scale>({{0.001F}, {0.002F}, {0.004F}}));
   CHECK(graph::StreamTraits<Cloud>::unwrap(outputs.at(0)).points == fine.points);
   const FeatureSet all = graph::StreamTraits<FeatureSet>::unwrap(outputs.at(1));
-  CHECK(all.descriptors == Eigen::Vector3f(1, 2, 3));
   REQUIRE(all.octaves.size() == 2);
+  CHECK(descriptors_of(all, all.octaves[0]) == Eigen::Vector2f(1, 2));
+  CHECK(descriptors_of(all, all.octaves[1])(0, 0) == 3);
   CHECK(all.octaves[0].resolution == 0.001F);
   CHECK(all.octaves[1].resolution == 0.004F);
   CHECK(all.octaves[1].begin == 2);
@@ -51,16 +52,18 @@ TEST_CASE("a scan without features in any octave is refused, and descriptors tha
 
 TEST_CASE("features match at their own scale alone", "[describe]") {
   Model model = *make_library({{0}}).models[0];
-  const FeatureSet fine = features_at({10}), coarse = features_at({20});
-  model.features = descriptors::stack_octaves({&fine, &coarse}, {{0.001F}, {0.002F}});
+  const auto at = [](const std::vector<float>& values) {
+    return std::make_shared<const FeatureSet>(features_at(values));
+  };
+  model.features = descriptors::stack_octaves({at({10}), at({20})}, {{0.001F}, {0.002F}});
   ModelLibrary library;
   library.models = {std::make_shared<const Model>(model)};
   library.octaves = descriptors::index_octaves(library.models, {});
   REQUIRE(library.octaves.size() == 2);
-  const FeatureSet seen = features_at({11, 19});
   const auto match = [&](float resolution) {
     return run_node<PerObject<Correspondences>>(
-        "match_features", {}, descriptors::stack_octaves({&seen}, {{resolution}}), library)[0];
+        "match_features", {}, descriptors::stack_octaves({at({11, 19})}, {{resolution}}),
+        library)[0];
   };
   CHECK(match(0.001F).model_feature == std::vector<std::uint32_t>{0, 0});
   CHECK(match(0.002F).model_feature == std::vector<std::uint32_t>{1, 1});

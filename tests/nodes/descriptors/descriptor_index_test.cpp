@@ -47,7 +47,7 @@ descriptors::TwoNearest naive(const DescriptorMatrix& rows, const DescriptorMatr
 /// How many queries were not answered exactly as by the definition.
 int mistakes(const DescriptorMatrix& rows, const DescriptorMatrix& queries,
              const std::string& search) {
-  const auto nearest = descriptors::DescriptorIndex({&rows}, {search}).nearest_two(queries);
+  const auto nearest = descriptors::DescriptorIndex({rows}, {search}).nearest_two(queries);
   int wrong = 0;
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const descriptors::TwoNearest expected = naive(rows, queries, static_cast<Eigen::Index>(i));
@@ -150,7 +150,7 @@ TEST_CASE("of equally near rows the smaller comes first", "[match]") {
     DescriptorMatrix rows(300, 20);
     rows << once, once, once, once, once;
     CHECK(mistakes(rows, random_matrix(50, 20, 4), search) == 0);
-    const auto same = descriptors::DescriptorIndex({&rows}, {search}).nearest_two(once);
+    const auto same = descriptors::DescriptorIndex({rows}, {search}).nearest_two(once);
     CHECK(same[7].row[0] == 7);
     CHECK(same[7].row[1] == 67);
     CHECK(same[7].squared[1] == 0);
@@ -186,19 +186,19 @@ TEST_CASE("exact search stays exact whatever the size of the numbers", "[match]"
 
 TEST_CASE("rows are counted through all blocks, empty ones too", "[match]") {
   const DescriptorMatrix a = random_matrix(5, 8, 1), none, b = random_matrix(40, 8, 2);
-  const auto nearest = descriptors::DescriptorIndex({&a, &none, &b}, {}).nearest_two(b);
+  const auto nearest = descriptors::DescriptorIndex({a, none, b}, {}).nearest_two(b);
   for (std::uint32_t i = 0; i < 40; ++i) CHECK(nearest[i].row[0] == i + 5);
 }
 
 TEST_CASE("the approximate forest mostly finds the nearest, and says what it is", "[match]") {
   const DescriptorMatrix rows = random_matrix(2000, 8, 1);
-  const descriptors::DescriptorIndex index({&rows}, {"approximate", 4, 512});
+  const descriptors::DescriptorIndex index({rows}, {"approximate", 4, 512});
   CHECK_FALSE(index.reproducible());
-  CHECK(descriptors::DescriptorIndex({&rows}, {"kd_tree"}).reproducible());
-  CHECK(descriptors::DescriptorIndex({&rows}, {"exact"}).reproducible());
+  CHECK(descriptors::DescriptorIndex({rows}, {"kd_tree"}).reproducible());
+  CHECK(descriptors::DescriptorIndex({rows}, {"exact"}).reproducible());
   CHECK(mistakes(rows, random_matrix(200, 8, 2), "approximate") < 20);
   const DescriptorMatrix one = rows.topRows(1);
-  CHECK(descriptors::DescriptorIndex({&one}, {"approximate"}).nearest_two(one)[0].squared[1] == 0);
+  CHECK(descriptors::DescriptorIndex({one}, {"approximate"}).nearest_two(one)[0].squared[1] == 0);
 }
 
 TEST_CASE("each block is searched by itself, and the smallest ratio decides", "[match]") {
@@ -211,7 +211,7 @@ TEST_CASE("each block is searched by itself, and the smallest ratio decides", "[
   for (const std::string search : {"exact", "kd_tree"}) {
     INFO(search);
     const auto fused =
-        descriptors::DescriptorIndex({&rows}, {search}, {5, 12}).nearest_two(queries, {5, 12});
+        descriptors::DescriptorIndex({rows}, {search}, {5, 12}).nearest_two(queries, {5, 12});
     REQUIRE(fused.size() == 70);
     int by_left = 0;
     for (std::size_t i = 0; i < fused.size(); ++i) {
@@ -231,26 +231,23 @@ TEST_CASE("of blocks with equal ratios the first decides", "[match]") {
   DescriptorMatrix rows(3, 2), query(1, 2);
   rows << 0, 5, 3, 0, 9, 2;  // nearest by the first number is row 0, by the second row 1
   query << 1, 1;
-  const descriptors::DescriptorIndex index({&rows}, {}, {1, 1});
+  const descriptors::DescriptorIndex index({rows}, {}, {1, 1});
   CHECK(index.nearest_two(query, {1, 1})[0].row[0] == 0);  // 1 : 4
   query << 1, 1;
   rows << 0, 3, 3, 0, 9, 9;
-  CHECK(descriptors::DescriptorIndex({&rows}, {}, {1, 1}).nearest_two(query, {1, 1})[0].row[0] ==
-        0);
+  CHECK(descriptors::DescriptorIndex({rows}, {}, {1, 1}).nearest_two(query, {1, 1})[0].row[0] == 0);
   query << 1, 0.5F;  // 0.25 : 6.25 beats 1 : 4
-  CHECK(descriptors::DescriptorIndex({&rows}, {}, {1, 1}).nearest_two(query, {1, 1})[0].row[0] ==
-        1);
+  CHECK(descriptors::DescriptorIndex({rows}, {}, {1, 1}).nearest_two(query, {1, 1})[0].row[0] == 1);
 }
 
 TEST_CASE("blocks that are not the columns are refused, and other blocks too", "[match]") {
   const DescriptorMatrix a = random_matrix(3, 8, 1);
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {}, {3, 4}),
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {}, {3, 4}),
                     Catch::Contains("8 numbers in blocks of 3 4"));
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {}, {8, 0}), Catch::Contains("no columns"));
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {}, {8, 0}), Catch::Contains("no columns"));
   const std::uint32_t wrap = std::numeric_limits<std::uint32_t>::max();
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {}, {wrap, 9}),
-                    Catch::Contains("blocks of"));
-  const descriptors::DescriptorIndex fused({&a}, {}, {3, 5});
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {}, {wrap, 9}), Catch::Contains("blocks of"));
+  const descriptors::DescriptorIndex fused({a}, {}, {3, 5});
   CHECK_THROWS_WITH(fused.nearest_two(a, {5, 3}),
                     Catch::Contains("blocks of 5 3, the library's blocks of 3 5"));
   CHECK_THROWS_WITH(fused.nearest_two(a), Catch::Contains("are one descriptor"));
@@ -259,29 +256,29 @@ TEST_CASE("blocks that are not the columns are refused, and other blocks too", "
 
 TEST_CASE("options of the search are refused where they are out of range", "[match]") {
   const DescriptorMatrix a = random_matrix(3, 8, 1);
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {"approximate", 0, 5}),
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {"approximate", 0, 5}),
                     Catch::Contains("trees is 0"));
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {"approximate", 65, 5}),
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {"approximate", 65, 5}),
                     Catch::Contains("at most 64"));
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {"approximate", 4, 1}),
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {"approximate", 4, 1}),
                     Catch::Contains("checks is 1"));
 }
 
 TEST_CASE("an index refuses what it cannot search", "[match]") {
   const DescriptorMatrix none, a = random_matrix(3, 8, 1), b = random_matrix(3, 9, 1);
   CHECK_THROWS_WITH(descriptors::DescriptorIndex({}, {}), Catch::Contains("no descriptors"));
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&none}, {}), Catch::Contains("no descriptors"));
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a, &b}, {}),
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({none}, {}), Catch::Contains("no descriptors"));
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a, b}, {}),
                     Catch::Contains("of 9 and of 8 numbers"));
-  CHECK_THROWS_WITH(descriptors::DescriptorIndex({&a}, {"guess"}), Catch::Contains("guess"));
-  const descriptors::DescriptorIndex index({&a}, {});
+  CHECK_THROWS_WITH(descriptors::DescriptorIndex({a}, {"guess"}), Catch::Contains("guess"));
+  const descriptors::DescriptorIndex index({a}, {});
   CHECK(index.nearest_two(none).empty());
   CHECK_THROWS_WITH(index.nearest_two(b), Catch::Contains("have 9 numbers, the library's 8"));
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     DescriptorMatrix broken = a;
     broken(1, 1) = bad;
-    CHECK_THROWS_WITH(descriptors::DescriptorIndex({&broken}, {}), Catch::Contains("not finite"));
+    CHECK_THROWS_WITH(descriptors::DescriptorIndex({broken}, {}), Catch::Contains("not finite"));
     CHECK_THROWS_WITH(index.nearest_two(broken), Catch::Contains("not finite"));
   }
 }

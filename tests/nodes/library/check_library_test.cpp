@@ -72,7 +72,9 @@ TEST_CASE("a library is refused for every value that nodes could not rely on", "
       {"1 feature normals, expected 2",
        [](Model& m) { m.features.normals.conservativeResize(1, 3); }},
       {"1 descriptors, expected 2",
-       [](Model& m) { m.features.descriptors.conservativeResize(1, 1); }},
+       [](Model& m) {
+         m.features.octaves[0].descriptors = std::make_shared<const DescriptorMatrix>(1, 1);
+       }},
       {"feature points are not finite", [](Model& m) { m.features.points(0, 0) = kNan; }},
       {"feature normal 1 has a squared length of 0",
        [](Model& m) { m.features.normals.row(1).setZero(); }},

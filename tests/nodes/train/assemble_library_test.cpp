@@ -33,7 +33,7 @@ TEST_CASE("a library holds the models by obj_id, with centre and diagonal of the
   CHECK(library.models[0]->name == "m2");
   CHECK(library.models[1]->obj_id == 5);
   CHECK(library.models[2]->obj_id == 7);
-  CHECK(library.models[2]->features.descriptors.rows() == 2);
+  CHECK(library.models[2]->features.points.rows() == 2);
   CHECK(library.models[1]->center.isApprox(Eigen::Vector3f(0.5F, 2.5F, 1)));
   CHECK(library.models[1]->diagonal == Approx(std::sqrt(30.0)));
 }
