@@ -13,8 +13,8 @@ void keep_heap();
 
 /// While one lives, each thread of this arena has the memory that an image takes before its first
 /// task. A page that is touched for the first time interrupts the program, which takes ten
-/// microseconds in a virtual machine and half a microsecond where many are asked for at once: the
-/// first five images of a run took 0.35 instead of 0.3 s.
+/// microseconds in a virtual machine and half a microsecond where many are asked for at once: some
+/// 8 % of the time of a run's first five images (tools/experiment/README.md, Speed).
 class ReadyHeap : public oneapi::tbb::task_scheduler_observer {
  public:
   ReadyHeap();

@@ -16,7 +16,7 @@ void require_alike(const FeatureSet& a, const FeatureSet& b) {
                              " numbers cannot be matched alike");
 }
 
-/// Those with a feature, row by row what `rows` is of each.
+/// The `rows` of all sets, one below the other.
 PointMatrix stacked(const Sets& sets, PointMatrix FeatureSet::*rows) {
   Eigen::Index count = 0;
   for (const auto& set : sets) count += ((*set).*rows).rows();
@@ -44,7 +44,6 @@ FeatureSet stack_octaves(const Sets& features, const std::vector<Scale>& scales)
     if (rows == 0) continue;
     if (first == nullptr) first = features[k].get();
     require_alike(*first, *features[k]);
-    // Shares the whole set's life.
     all.octaves.push_back(
         {scales[k].resolution, begin, begin + rows, {features[k], &features[k]->descriptors}});
     begin += rows;
