@@ -4,10 +4,9 @@
 #include <malloc.h>
 #include <oneapi/tbb/task_arena.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <vector>
@@ -15,7 +14,6 @@
 namespace posevote {
 namespace {
 
-constexpr std::size_t kPage = 4096;
 // Small enough to come from the thread's own heap, of which several fit one that is not main()'s.
 constexpr std::size_t kBlock = 16 << 20;
 // Of main()'s thread and of each other: what an image of 640 x 480 takes on two threads.
@@ -25,8 +23,10 @@ constexpr int kMostWorkerBlocks = 24;
 
 /// Asks the system for the pages of a block; one that does not know how gives them when touched.
 void touch(void* block) {
-  const std::uintptr_t begin = (std::bit_cast<std::uintptr_t>(block) + kPage - 1) / kPage * kPage;
-  madvise(std::bit_cast<void*>(begin), kBlock - kPage, MADV_POPULATE_WRITE);
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  std::size_t size = kBlock;
+  std::align(page, 0, block, size);
+  madvise(block, size / page * page, MADV_POPULATE_WRITE);
 }
 
 /// Of this thread's heap, once.

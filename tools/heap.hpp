@@ -19,8 +19,6 @@ class ReadyHeap : public oneapi::tbb::task_scheduler_observer {
  public:
   ReadyHeap();
   ~ReadyHeap() override;
-  ReadyHeap(const ReadyHeap&) = delete;
-  ReadyHeap& operator=(const ReadyHeap&) = delete;
 
   void on_scheduler_entry(bool is_worker) override;
 };

@@ -34,7 +34,7 @@ struct Octave {
   float resolution = 0;              ///< [m]; compared exactly: octaves are powers of two
   std::uint32_t begin = 0, end = 0;  ///< rows
   /// Of these rows, where sets were joined: what describes a large scan is not copied.
-  std::shared_ptr<const DescriptorMatrix> descriptors;
+  std::shared_ptr<const DescriptorMatrix> descriptors = nullptr;
 };
 
 /// Oriented feature points and their descriptors; row i of each belongs together.
@@ -58,7 +58,7 @@ inline bool same_scale(const Octave& a, float resolution) {
 /// The octaves, of which there always is one.
 inline std::vector<Octave> octaves_of(const FeatureSet& features) {
   if (!features.octaves.empty()) return features.octaves;
-  return {{0, 0, static_cast<std::uint32_t>(features.points.rows()), nullptr}};
+  return {{0, 0, static_cast<std::uint32_t>(features.points.rows())}};
 }
 
 /// The descriptors of an octave of theirs.

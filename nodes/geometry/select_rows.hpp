@@ -8,12 +8,11 @@
 
 namespace posevote::geometry {
 
-/// Those rows of a matrix; parallel. `rows`: a vector of row numbers or an Eigen::seq. `grain`: rows
-/// that are worth a task; fewer where they are long.
+/// Those rows of a matrix; parallel. `rows`: a vector of row numbers or an Eigen::seq.
 template <class Matrix, class Rows>
-Matrix rows_of(const Matrix& matrix, const Rows& rows, std::size_t grain = 8192) {
+Matrix rows_of(const Matrix& matrix, const Rows& rows) {
   Matrix selected(static_cast<Eigen::Index>(rows.size()), matrix.cols());
-  graph::parallel_for(static_cast<std::size_t>(rows.size()), grain, [&](std::size_t i) {
+  graph::parallel_for(static_cast<std::size_t>(rows.size()), 8192, [&](std::size_t i) {
     selected.row(static_cast<Eigen::Index>(i)) = matrix.row(static_cast<Eigen::Index>(rows[i]));
   });
   return selected;

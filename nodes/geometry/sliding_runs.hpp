@@ -3,9 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "nodes/geometry/grid.hpp"
@@ -42,24 +40,13 @@ class SlidingRuns {
   void slide_to(float x) {
     // A trifle wider than the ball, as find_runs.
     const double reach = 1.000001 * radius_;
-    const float low = rounded_up(static_cast<double>(x) - reach);
-    const float high = -rounded_up(-(static_cast<double>(x) + reach));
-    const float* at = grid_.x();
+    const double low = static_cast<double>(x) - reach, high = static_cast<double>(x) + reach;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const std::uint32_t last = rods_[r].end;
-      std::uint32_t begin = runs_[r].begin;
-      while (begin < last && at[begin] < low) ++begin;
-      std::uint32_t end = std::max(runs_[r].end, begin);
-      while (end < last && at[end] <= high) ++end;
-      runs_[r] = {begin, end};
+      GridRun& run = runs_[r];
+      while (run.begin < rods_[r].end && grid_.x()[run.begin] < low) ++run.begin;
+      run.end = std::max(run.end, run.begin);
+      while (run.end < rods_[r].end && grid_.x()[run.end] <= high) ++run.end;
     }
-  }
-
-  /// The least float that is not below: others compare with it as with the value itself.
-  static float rounded_up(double value) {
-    const auto rounded = static_cast<float>(value);
-    if (static_cast<double>(rounded) >= value) return rounded;
-    return std::nextafter(rounded, std::numeric_limits<float>::infinity());
   }
 
   const PointGrid& grid_;

@@ -39,7 +39,7 @@ std::shared_ptr<const Model> object(const std::vector<float>& resolutions) {
   const auto count = static_cast<Eigen::Index>(resolutions.size());
   model.features.points.setZero(count, 3);
   for (std::uint32_t i = 0; i < resolutions.size(); ++i)
-    model.features.octaves.push_back({resolutions[i], i, i + 1, nullptr});
+    model.features.octaves.push_back({resolutions[i], i, i + 1});
   return std::make_shared<const Model>(std::move(model));
 }
 
