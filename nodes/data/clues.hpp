@@ -29,14 +29,19 @@ enum Clue : std::size_t {
              ///< of a clear lead
   kStrangers,  ///< log of how well the things in the scan are known, at most 0: of few kinds that
                ///< are looked for, and little that was found, it may be another's look-alike
+  kCompany,    ///< log odds that the scan's other instances give: one that repeats a kind where
+               ///< all else is there once is doubted, one that completes what is looked for is not
   kClueCount
 };
 
 constexpr std::array<const char*, kClueCount> kClueNames{
-    "agreement", "relief", "outline", "overhang", "votes", "lead",    "exactness",
-    "support",   "gaps",   "filled",  "visible",  "sunk",  "outside", "strangers"};
+    "agreement", "relief", "outline", "overhang", "votes",   "lead",      "exactness", "support",
+    "gaps",      "filled", "visible", "sunk",     "outside", "strangers", "company"};
 
 using Clues = std::array<double, kClueCount>;
+
+/// Log odds by Bayes' rule, whose weight is 1; the others' weights are found by regression.
+constexpr bool is_by_bayes(std::size_t clue) { return clue == kStrangers || clue == kCompany; }
 
 /// What colours say of a detection, where the scan and the model have any: log odds, as far as one
 /// knows, of them being the object's and not anybody's (poses/color_fit.hpp).

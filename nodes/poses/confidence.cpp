@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "nodes/poses/score.hpp"
 
@@ -19,7 +20,7 @@ constexpr double kClearLead = 1;
 constexpr double kAllSunk = 0.5;
 
 /// Medians of 700 right detections of simulated scans of parts, household objects and bins.
-constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0, 0, 0};
+constexpr Clues kUsualClues{3.3, -0.9, -1.5, 0, -0.7, -0.3, 0, 8.3, -3.2, 0, -0.2, 0, 0, 0, 0};
 
 /// Looks into holes that nobody took: few of them say little.
 constexpr double kFewLooks = 5;
@@ -118,9 +119,18 @@ double confidence_of(const Candidate& candidate, const Terms& terms) {
 void doubt_as_stranger(const Acquaintance& known, const Terms& terms, Candidate& candidate) {
   if (!(candidate.quality > 0)) return;
   const double things = static_cast<double>(known.kinds) +
-                        terms.confidence.each_found * static_cast<double>(known.found);
+                        terms.confidence.each_found * static_cast<double>(known.found.size());
   candidate.clues[kStrangers] =
       known.kinds == 0 ? 0 : std::min(0.0, std::log(things / terms.confidence.kinds));
+  candidate.confidence = confidence_of(candidate, terms);
+}
+
+void believe_in_company(const Acquaintance& others, const Model& model, const Terms& terms,
+                        Candidate& candidate) {
+  if (others.kinds == 0 || !(candidate.quality > 0)) return;
+  std::vector<Companion> all = others.found;
+  all.push_back({model.obj_id, candidate.confidence});
+  candidate.clues[kCompany] = log_odds_in_company(all, others.kinds).back();
   candidate.confidence = confidence_of(candidate, terms);
 }
 

@@ -58,6 +58,10 @@ double confidence_of(const Candidate& candidate, const Terms& terms);
 /// not depend on it.
 void doubt_as_stranger(const Acquaintance& known, const Terms& terms, Candidate& candidate);
 
+/// Of an instance, once all are chosen: adds what the others say of it (company.hpp).
+void believe_in_company(const Acquaintance& others, const Model& model, const Terms& terms,
+                        Candidate& candidate);
+
 /// Sets consensus, clues and confidence of a candidate.
 void believe(const Sought& sought, Candidate& candidate);
 

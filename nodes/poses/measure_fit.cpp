@@ -42,11 +42,12 @@ struct Sensed {
       : scan(of),
         view(seen),
         tolerance(near),
-        clear_distance(static_cast<float>(terms.clear_distance) * near) {}
+        clear_distance(static_cast<float>(terms.clear_distance) * near),
+        goes_on_within(static_cast<float>(terms.goes_on_within) * near) {}
 
   const geometry::ScanSurface& scan;
   const geometry::RangeView& view;
-  float tolerance, clear_distance;
+  float tolerance, clear_distance, goes_on_within;
 };
 
 /// Of a point that faces the sensor. `there`: what one is where something was measured at its range.
@@ -98,16 +99,19 @@ struct Stander {
   }
 };
 
-/// What is more than `height` [m] lower or higher is another surface: the ground under a plate.
+/// What lies clearly behind what was measured there is hidden, whatever the scan has beside it: along
+/// a grazing side ranges differ much from one pixel to the next. What is more than `height` [m] lower
+/// or higher is another surface: the ground under a plate.
 /// What the model stands on does not tell: ahead of a foot's chamfer the ground comes soon.
 End look_at_end(const geometry::OrientedPoint& place, const Sensed& sensed, const Stander& model,
                 float height) {
-  if (const auto partner = sensed.scan.nearest_compatible(place, sensed.tolerance))
-    if (std::abs((partner->point - place.point).dot(place.normal)) <= height)
-      return model.stands_on(*partner, height) ? End::kHidden : End::kGoesOn;
   const float measured = sensed.view.measured_range(place.point);
   const float range = (place.point - sensed.scan.viewpoint()).norm();
-  return measured == 0 || measured < range - sensed.clear_distance ? End::kHidden : End::kEnds;
+  if (measured == 0 || measured < range - sensed.clear_distance) return End::kHidden;
+  if (const auto partner = sensed.scan.nearest_compatible(place, sensed.goes_on_within))
+    if (std::abs((partner->point - place.point).dot(place.normal)) <= height)
+      return model.stands_on(*partner, height) ? End::kHidden : End::kGoesOn;
+  return End::kEnds;
 }
 
 /// What is hidden does not tell.

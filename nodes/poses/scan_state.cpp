@@ -32,7 +32,7 @@ ScanState::ScanState(const Cloud& scan, const FeatureSet& scan_features, float r
       ground(scan, kSkin * resolution_m),
       feature_explained(static_cast<std::size_t>(scan_features.points.rows()), 0),
       look(scan),
-      known{kinds} {}
+      known{kinds, {}} {}
 
 void ScanState::take_out(const Model& model, const Eigen::Isometry3d& T_scene_model,
                          float distance) {
@@ -58,7 +58,7 @@ bool ScanState::changed_since(int since, const Eigen::AlignedBox3d& box, double 
 
 void ScanState::learn_from(const Model& model, const Candidate& instance) {
   if (instance.confidence < kBelieved) return;
-  ++known.found;
+  known.found.push_back({model.obj_id, instance.confidence});
   usual_residual.add(instance.fit, range_of(model, instance.T_scene_model));
   usual_tint.add(instance.colors);
   solids_.emplace_back(model.cloud, instance.T_scene_model,

@@ -11,6 +11,7 @@
 #include "nodes/geometry/scan_surface.hpp"
 #include "nodes/poses/candidate.hpp"
 #include "nodes/poses/color_fit.hpp"
+#include "nodes/poses/company.hpp"
 #include "nodes/poses/ground.hpp"
 #include "nodes/poses/solid.hpp"
 #include "nodes/poses/terms.hpp"
@@ -20,8 +21,8 @@ namespace posevote::poses {
 
 /// What is known of the things in a scan.
 struct Acquaintance {
-  std::size_t kinds = 0;  ///< that are looked for; 0: that is not asked, all are
-  std::size_t found = 0;  ///< instances that are believed
+  std::size_t kinds = 0;           ///< that are looked for; 0: that is not asked, all are
+  std::vector<Companion> found{};  ///< instances that are believed
 };
 
 struct ScanState {

@@ -61,6 +61,11 @@ void add_fit(Node& node) {
        "Beside a pose a surface goes on that is at most so much lower or higher than it, and a "
        "tenth of the tolerance; another is the ground under its edge.",
        at_least(0));
+  term("goes_on_within", &G::goes_on_within, "x inlier_distance",
+       "Beside a pose a surface goes on where the scan has a point so near to the place that is "
+       "asked "
+       "for. 1: things that are a little larger than their models seem to go on.",
+       greater_than(0));
 }
 
 void add_score(Node& node) {
@@ -98,9 +103,9 @@ void add_confidence(Node& node) {
         std::string("confidence_") + kClueNames[i],
         [i](SegmentParams& params) -> double& { return params.terms.confidence.weights[i]; },
         "log odds",
-        i == kStrangers ? "Weight of that clue in the confidence: 1 by Bayes' rule."
-                        : "Weight of that clue in the confidence. Found by posevote calibrate, and "
-                          "moved (terms.hpp).",
+        is_by_bayes(i) ? "Weight of that clue in the confidence: 1 by Bayes' rule."
+                       : "Weight of that clue in the confidence. Found by posevote calibrate, and "
+                         "moved (terms.hpp).",
         in_range(-1e6, 1e6));
   const Register<ConfidenceTerms> term{node, &Terms::confidence};
   term("doubtful", &ConfidenceTerms::doubtful, "x min_confidence",

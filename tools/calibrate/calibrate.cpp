@@ -48,10 +48,24 @@ struct Terms {
 };
 
 Terms terms_of_shape() {
-  Terms terms{{}, "confidence_offset", {}, [](const JudgedPose&) { return 0.0; }};
-  for (const char* name : kClueNames) terms.names.push_back(std::string("confidence_") + name);
-  terms.clues = [](const JudgedPose& pose) {
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(pose.clues.data(), kClueCount));
+  Terms terms{{}, "confidence_offset", {}, {}};
+  std::vector<std::size_t> fitted;
+  for (std::size_t i = 0; i < kClueCount; ++i)
+    if (!is_by_bayes(i)) {
+      fitted.push_back(i);
+      terms.names.push_back(std::string("confidence_") + kClueNames[i]);
+    }
+  terms.clues = [fitted](const JudgedPose& pose) {
+    Eigen::VectorXd clues(std::ssize(fitted));
+    for (std::size_t i = 0; i < fitted.size(); ++i)
+      clues[static_cast<Eigen::Index>(i)] = pose.clues[fitted[i]];
+    return clues;
+  };
+  terms.known = [](const JudgedPose& pose) {
+    double log_odds = 0;
+    for (std::size_t i = 0; i < kClueCount; ++i)
+      if (is_by_bayes(i)) log_odds += pose.clues[i];
+    return log_odds;
   };
   return terms;
 }

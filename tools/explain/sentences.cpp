@@ -25,7 +25,8 @@ const char* meaning_of(const std::string& clue) {
        "the scan has a surface where the object has holes",
        "much of it is hidden, and the rest is flat", "much of it would lie in the ground",
        "much of it would lie beside the image, and other places have as many votes",
-       "of the things in the scan few are known, so that it may be another's look-alike"});
+       "of the things in the scan few are known, so that it may be another's look-alike",
+       "another of its kind is there, and the scan's other things are there once each"});
   static_assert(kMeanings.size() == kClueCount);
   const auto at = std::find(kClueNames.begin(), kClueNames.end(), clue);
   if (at == kClueNames.end()) return "its colours are not those that the camera saw";

@@ -135,11 +135,11 @@ void Bench::take_out_doubtful(std::size_t object, const Alike& alike,
 }
 
 poses::Acquaintance Bench::others_than(std::size_t object, const Alike& alike) const {
-  const std::vector<poses::Instance>& found = search.instances().found;
-  const auto others = std::count_if(found.begin(), found.end(), [&](const poses::Instance& one) {
-    return one.object != object || !alike.is_near(one.candidate.T_scene_model);
-  });
-  return {taps.votes.size(), static_cast<std::size_t>(others)};
+  poses::Acquaintance others{taps.votes.size(), {}};
+  for (const poses::Instance& one : search.instances().found)
+    if (one.object != object || !alike.is_near(one.candidate.T_scene_model))
+      others.found.push_back({taps.votes[one.object].model->obj_id, one.candidate.confidence});
+  return others;
 }
 
 void Bench::count_features(std::size_t object, const poses::Sought& sought,
@@ -192,7 +192,9 @@ Judged Bench::judge(std::size_t object, const Alike& alike, const poses::ScanSta
   poses::refine(sought, candidate);
   poses::polish(sought, candidate);
   T_refined = candidate.T_scene_model;
-  poses::doubt_as_stranger(others_than(object, alike), params.terms, candidate);
+  const poses::Acquaintance others = others_than(object, alike);
+  poses::doubt_as_stranger(others, params.terms, candidate);
+  poses::believe_in_company(others, sought.model, params.terms, candidate);
   Judged judged = judged_as(candidate, params.terms);
   if (!(candidate.quality > 0)) return judged;
   const poses::FitShares shares = poses::shares_of(candidate.fit, params.terms.fit);

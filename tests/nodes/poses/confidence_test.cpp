@@ -103,7 +103,7 @@ TEST_CASE("of the fewer kinds that are known, the more probably a pose is a stra
   const double unasked = poses::confidence_of(instance, terms);
   const auto among = [&](std::size_t kinds, std::size_t found) {
     poses::Candidate one = instance;
-    poses::doubt_as_stranger({kinds, found}, terms, one);
+    poses::doubt_as_stranger({kinds, std::vector<poses::Companion>(found)}, terms, one);
     return one.confidence;
   };
   CHECK(among(0, 0) == unasked);
@@ -116,13 +116,13 @@ TEST_CASE("of the fewer kinds that are known, the more probably a pose is a stra
   CHECK(among(1, 0) < among(1, 3));
   CHECK(among(1, 10) == unasked);
   poses::Candidate one = instance;
-  poses::doubt_as_stranger({1, 0}, terms, one);
+  poses::doubt_as_stranger({1, {}}, terms, one);
   CHECK(one.clues[kStrangers] == Approx(-std::log(20)));
   poses::doubt_as_stranger({}, terms, one);
   CHECK(one.confidence == unasked);
   // What is nothing is no less.
   one.quality = one.confidence = 0;
-  poses::doubt_as_stranger({1, 0}, terms, one);
+  poses::doubt_as_stranger({1, {}}, terms, one);
   CHECK(one.confidence == 0);
 }
 

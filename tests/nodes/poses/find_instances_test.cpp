@@ -22,7 +22,14 @@ Model front_of(const Model& body) {
   Model front = body;
   front.obj_id = 2;
   front.cloud = geometry::select_rows(body.cloud, rows);
-  front.outline = geometry::outline_of(front.cloud, 5 * kResolution, 4 * kResolution);
+  // Where it was cut the scan goes on, so that is no end.
+  front.outline.bends.clear();
+  front.outline.ends.clear();
+  front.outline.gaps.clear();
+  for (const Eigen::Index row : rows) {
+    front.outline.ends.push_back(body.outline.ends[static_cast<std::size_t>(row)]);
+    front.outline.gaps.push_back(body.outline.gaps[static_cast<std::size_t>(row)]);
+  }
   return front;
 }
 

@@ -106,6 +106,7 @@ TEST_CASE("a look-alike that lies off by more than the others is told by them", 
                      {{"max_instances", "2"},
                       {"min_score", "0.65"},
                       {"min_confidence", "0"},
+                      {"confidence_offset", "-5"},
                       {"max_residual", max_residual}});
   };
   const auto both = found({left, right}, "0");
