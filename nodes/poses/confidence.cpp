@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include "nodes/poses/company.hpp"
 #include "nodes/poses/score.hpp"
 
 namespace posevote::poses {
@@ -125,13 +125,16 @@ void doubt_as_stranger(const Acquaintance& known, const Terms& terms, Candidate&
   candidate.confidence = confidence_of(candidate, terms);
 }
 
-void believe_in_company(const Acquaintance& others, const Model& model, const Terms& terms,
-                        Candidate& candidate) {
-  if (others.kinds == 0 || !(candidate.quality > 0)) return;
+void believe_in_company(const std::vector<Member>& instances, const Acquaintance& others) {
+  if (others.kinds == 0) return;
   std::vector<Companion> all = others.found;
-  all.push_back({model.obj_id, candidate.confidence});
-  candidate.clues[kCompany] = log_odds_in_company(all, others.kinds).back();
-  candidate.confidence = confidence_of(candidate, terms);
+  for (const Member& one : instances) all.push_back({one.obj_id, one.candidate.confidence});
+  const std::vector<double> log_odds = log_odds_in_company(all, others.kinds);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    Candidate& candidate = instances[i].candidate;
+    candidate.clues[kCompany] = log_odds[others.found.size() + i];
+    candidate.confidence = confidence_of(candidate, instances[i].terms);
+  }
 }
 
 void believe(const Sought& sought, Candidate& candidate) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "nodes/data/clues.hpp"
 #include "nodes/poses/candidate.hpp"
@@ -58,9 +59,15 @@ double confidence_of(const Candidate& candidate, const Terms& terms);
 /// not depend on it.
 void doubt_as_stranger(const Acquaintance& known, const Terms& terms, Candidate& candidate);
 
-/// Of an instance, once all are chosen: adds what the others say of it (company.hpp).
-void believe_in_company(const Acquaintance& others, const Model& model, const Terms& terms,
-                        Candidate& candidate);
+/// An instance of an object, of quality > 0.
+struct Member {
+  int obj_id;
+  const Terms& terms;
+  Candidate& candidate;
+};
+
+/// Of instances, once all are chosen: adds what they, and others, say of each other (company.hpp).
+void believe_in_company(const std::vector<Member>& instances, const Acquaintance& others);
 
 /// Sets consensus, clues and confidence of a candidate.
 void believe(const Sought& sought, Candidate& candidate);

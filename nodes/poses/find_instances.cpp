@@ -137,19 +137,13 @@ std::vector<Instance> search_all(std::vector<ObjectSearch>& searches, ScanState&
   return found;
 }
 
-/// What they say of each other, and those that were known before of them.
-void believe_in_company(std::vector<Instance>& instances, const std::vector<ObjectSearch>& searches,
-                        const Acquaintance& before) {
-  if (before.kinds == 0) return;
-  std::vector<Companion> all = before.found;
-  for (const Instance& one : instances)
-    all.push_back({searches[one.object].model().obj_id, one.candidate.confidence});
-  const std::vector<double> log_odds = log_odds_in_company(all, before.kinds);
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    Candidate& candidate = instances[i].candidate;
-    candidate.clues[kCompany] = log_odds[before.found.size() + i];
-    candidate.confidence = confidence_of(candidate, searches[instances[i].object].terms());
-  }
+std::vector<Member> members_of(std::vector<Instance>& instances,
+                               const std::vector<ObjectSearch>& searches) {
+  std::vector<Member> members;
+  for (Instance& one : instances)
+    members.push_back(
+        {searches[one.object].model().obj_id, searches[one.object].terms(), one.candidate});
+  return members;
 }
 
 void sort_by_confidence(std::vector<Instance>& instances) {
@@ -182,7 +176,7 @@ Instances find_instances(std::vector<ObjectSearch>& searches, ScanState& scan) {
   const Acquaintance before = scan.known;
   Instances all;
   all.found = search_all(searches, scan);
-  believe_in_company(all.found, searches, before);
+  believe_in_company(members_of(all.found, searches), before);
   const auto doubtful =
       std::stable_partition(all.found.begin(), all.found.end(), [&](const Instance& instance) {
         return instance.candidate.confidence >= searches[instance.object].params().min_confidence;

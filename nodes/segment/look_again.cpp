@@ -109,6 +109,7 @@ std::vector<Sighting> keep(const Sightings& before, std::vector<Look>& looks,
     Look& look = looks[i];
     poses::Candidate& candidate = look.now.candidate;
     poses::judge_again(look.sought, candidate);
+    // said when all were chosen, and counts in the confidence that the next line sets
     candidate.clues[kCompany] = before.items[i].candidate.clues[kCompany];
     poses::doubt_as_stranger(scan.known, look.sought.terms, candidate);
     const poses::InstanceParams& rules = look.sought.params;
