@@ -194,10 +194,9 @@ Judged Bench::judge(std::size_t object, const Alike& alike, const poses::ScanSta
   T_refined = candidate.T_scene_model;
   const poses::Acquaintance others = others_than(object, alike);
   poses::doubt_as_stranger(others, params.terms, candidate);
-  if (candidate.quality > 0)
-    poses::believe_in_company({{sought.model.obj_id, params.terms, candidate}}, others);
+  if (!(candidate.quality > 0)) return judged_as(candidate, params.terms);
+  poses::believe_in_company({{sought.model.obj_id, params.terms, candidate}}, others);
   Judged judged = judged_as(candidate, params.terms);
-  if (!(candidate.quality > 0)) return judged;
   const poses::FitShares shares = poses::shares_of(candidate.fit, params.terms.fit);
   judged.agreement = shares.agreement;
   judged.relief = candidate.fit.relief;
